@@ -118,7 +118,7 @@ static inline bool find_widget(struct monkey *m, float *x, float *y)
 
 static inline void monkey_point(struct monkey *m)
 {
-    const struct rect window = m->blind->app.work.editor->core.layout.window;
+    const struct rect window = m->blind->app.work.editor->core.view.layout.window;
     float x = window.w * (float)(below(m, 1100) - 50) / 1000, y = window.h * (float)(below(m, 1100) - 50) / 1000;
     const int what = below(m, 5);
     if (what < 2) find_thing(m, &x, &y);

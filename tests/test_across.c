@@ -33,7 +33,7 @@ SESSION_TEST(test_all_of_one_and_of_all_that_are_shown, session_open(s, TWO))
     assert_int_equal(count(s), 7);
     session_key(s, 'A', MOD_CTRL); // fewer again
     assert_int_equal(count(s), 4);
-    selection_set(&s->editor->core.hidden, s->document->splines[2]->id, true);
+    selection_set(&s->editor->core.view.hidden, s->document->splines[2]->id, true);
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
     assert_int_equal(count(s), 6);
 }
@@ -42,10 +42,10 @@ SESSION_TEST(test_a_box_takes_knots_of_all_curves, session_open(s, TWO))
 {
     box(s, "curve(sway,17,1.1)", "curve(sway,26,0.1)");
     assert_int_equal(count(s), 3);
-    assert_int_equal(s->editor->core.active, 0);
+    assert_int_equal(s->editor->core.focus.active, 0);
     box(s, "curve(sway,37,-0.3)", "curve(sway,45,-0.7)"); // the other curve alone: that one is worked on then
     assert_int_equal(count(s), 1);
-    assert_int_equal(s->editor->core.active, 1);
+    assert_int_equal(s->editor->core.focus.active, 1);
 }
 
 SESSION_TEST(test_shift_clicks_add_knots_of_another_curve, session_open(s, TWO))
@@ -57,7 +57,7 @@ SESSION_TEST(test_shift_clicks_add_knots_of_another_curve, session_open(s, TWO))
     session_click(s, "knot(up,1)");
     s->mods = 0;
     assert_int_equal(count(s), 1);
-    assert_int_equal(s->editor->core.active, 0); // the one that has what is still selected
+    assert_int_equal(s->editor->core.focus.active, 0); // the one that has what is still selected
 }
 
 SESSION_TEST(test_a_drag_moves_all_in_one_step, session_open(s, TWO))
@@ -227,8 +227,8 @@ SESSION_TEST(test_two_factors_and_what_stops_them, session_open(s, TWO))
 /// The upper edge goes along with the pointer, the lower one stays; the factor is beside the pointer.
 SESSION_TEST(test_an_edge_of_the_box_scales_about_the_other_side, session_open(s, TWO))
 {
-    const float unit =
-        (float)(s->editor->core.layout.plot.h / (s->editor->curves->view.value1 - s->editor->curves->view.value0));
+    const float unit = (float)(s->editor->core.view.layout.plot.h /
+                               (s->editor->curves->view.value1 - s->editor->curves->view.value0));
     box(s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)"); // 20 and 30 of sway, 20 of up, 22 of far
     const char *original = session_saved(s);
     session_pull(s, "box(0,-1)", 0, -unit / 2, 4);
@@ -248,8 +248,8 @@ TEST(test_an_edge_of_the_box_scales_about_the_equilibrium)
     for (int by_key = 0; by_key < 2; by_key++) {
         struct session s;
         session_open(&s, TWO);
-        const float unit =
-            (float)(s.editor->core.layout.plot.h / (s.editor->curves->view.value1 - s.editor->curves->view.value0));
+        const float unit = (float)(s.editor->core.view.layout.plot.h /
+                                   (s.editor->curves->view.value1 - s.editor->curves->view.value0));
         session_key(&s, 'A', MOD_CTRL);
         s.mods = by_key ? 0 : MOD_ALT;
         session_pull(&s, "box(0,-1)", 0, -unit / 2, 4);
@@ -264,7 +264,7 @@ TEST(test_an_edge_of_the_box_scales_about_the_equilibrium)
 SESSION_TEST(test_a_corner_of_the_box_scales_both_and_says_what_stops_it, session_open(s, TWO))
 {
     const struct curves *curves = s->editor->curves;
-    const float frame = (float)(s->editor->core.layout.plot.w / (curves->view.frame1 - curves->view.frame0));
+    const float frame = (float)(s->editor->core.view.layout.plot.w / (curves->view.frame1 - curves->view.frame0));
     box(s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)");
     const char *original = session_saved(s);
     session_pull(s, "box(1,-1)", 10 * frame, 0, 4);
@@ -290,13 +290,13 @@ SESSION_TEST(test_the_box_has_the_handles_that_can_scale, session_open(s, TWO))
     assert_false(editor_target(s->editor, "box(1,0)", &x, &y, &error));
     assert_false(editor_target(s->editor, "box(1,-1)", &x, &y, &error));
     session_hover(s, "knot(sway,1)");
-    assert_ptr_equal(s->editor->core.hover.thing, &thing_knot);
+    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_knot);
 }
 
 /// With Alt, from the playhead; a system that sends the comma all the same goes no further.
 SESSION_TEST(test_the_playhead_goes_to_the_next_knot, session_open(s, TWO))
 {
-    const struct playback *playback = &s->editor->core.playback;
+    const struct playback *playback = &s->editor->core.view.playback;
     session_strike(s, '.', MOD_ALT, '.');
     assert_near(playback->position, 10, 0);
     session_key(s, '.', MOD_ALT);
@@ -304,7 +304,7 @@ SESSION_TEST(test_the_playhead_goes_to_the_next_knot, session_open(s, TWO))
     assert_near(playback->position, 30, 0);
     session_strike(s, ',', MOD_ALT, ',');
     assert_near(playback->position, 20, 0);
-    assert_true(selection_has(&s->editor->core.selection, knot(s, 0, 1)->id));
+    assert_true(selection_has(&s->editor->core.focus.selection, knot(s, 0, 1)->id));
     session_key(s, KEY_HOME, MOD_ALT);
     session_key(s, KEY_HOME, MOD_ALT);
     assert_near(playback->position, 10, 0);

@@ -115,7 +115,7 @@ TEST(poles_of_figure_2_are_in_sight)
         assert_true(inspector_target(editor->inspector, "pole.centre", &x, &y));
         const struct draw_command *axis = shown_text(editor, "-1 Hz"); // below the response
         assert_non_null(axis);
-        assert_true(axis->y < editor->core.layout.inspector.y + editor->core.layout.inspector.h - 40);
+        assert_true(axis->y < editor->core.view.layout.inspector.y + editor->core.view.layout.inspector.h - 40);
         blind_close(&blind);
     }
 }

@@ -334,7 +334,7 @@ SESSION_TEST(
     strike(s, KEY_DELETE, MOD_SHIFT);
     if (s->editor->dialogs->dialog.kind == DIALOG_ASK) strike(s, 'K', 0);
     assert_int_equal(s->document->rig_count, 1);
-    assert_true(s->editor->core.playback.playing);
+    assert_true(s->editor->core.view.playback.playing);
     session_click_here(s, 1);
     assert_int_equal(s->document->rigs[0]->kind, RIG_MODEL);
 }

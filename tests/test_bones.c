@@ -41,7 +41,7 @@ SESSION_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, open
 {
     assert_false(session_shows(s, "neck"));
     session_hover(s, "bone(neck)");
-    assert_ptr_equal(s->editor->core.hover.thing, &thing_bone);
+    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_bone);
     assert_true(session_shows(s, "neck"));
     assert_string_equal(selected(s), "");
     session_click(s, "bone(neck)");
@@ -152,7 +152,7 @@ SESSION_TEST(test_a_key_makes_a_chain_to_the_tip_in_one_step, open_beast(s, ""))
     assert_string_equal(made->chain.from, "tail_3");
     assert_string_equal(made->chain.to, "tail_8");
     assert_true(made->chain.channel_count >= 1);
-    assert_int_equal(s->editor->core.active, made->chain.channels[0].spline);
+    assert_int_equal(s->editor->core.focus.active, made->chain.channels[0].spline);
     assert_int_equal(s->editor->inspector->rig, 1);
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
@@ -363,7 +363,7 @@ SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR)
 SESSION_TEST(test_a_clicked_chain_leaves_its_feel_in_sight, open_beast(s, LEFT_EAR))
 {
     editor_resize(s->editor, 1280, 720, 1);
-    s->editor->core.more = false;
+    s->editor->core.view.more = false;
     session_frame(s);
     session_click(s, "bone(ear_L_2)");
     session_frame(s);

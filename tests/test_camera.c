@@ -4,18 +4,18 @@
 
 static const float viewport[4] = {100.0f, 50.0f, 1000.0f, 400.0f};
 
-struct view {
+struct plotted {
     float view[16], projection[16], eye[3];
 };
 
-static struct view look(const struct camera *camera)
+static struct plotted look(const struct camera *camera)
 {
-    struct view view;
+    struct plotted view;
     camera_matrices(camera, viewport[2] / viewport[3], view.view, view.projection, view.eye);
     return view;
 }
 
-static bool project(const struct view *view, const float world[3], float screen[2])
+static bool project(const struct plotted *view, const float world[3], float screen[2])
 {
     return camera_project(view->view, view->projection, viewport, world, screen);
 }
@@ -24,7 +24,7 @@ TEST(the_target_is_in_the_middle_with_y_up_and_z_to_the_left)
 {
     struct camera camera = camera_default();
     camera.target[1] = 0.7f;
-    const struct view view = look(&camera);
+    const struct plotted view = look(&camera);
     float middle[2], above[2], along[2];
     const float up[3] = {0.0f, 1.0f, 0.0f}, z[3] = {0.0f, 0.7f, 0.5f};
     assert_true(project(&view, camera.target, middle));
@@ -38,7 +38,7 @@ TEST(the_target_is_in_the_middle_with_y_up_and_z_to_the_left)
 TEST(points_behind_the_eye_are_not_projected)
 {
     const struct camera camera = camera_default();
-    const struct view view = look(&camera);
+    const struct plotted view = look(&camera);
     const float behind[3] = {2.0f * view.eye[0], 2.0f * view.eye[1], 2.0f * view.eye[2]};
     float screen[2];
     assert_false(project(&view, behind, screen));
@@ -51,7 +51,7 @@ TEST(what_is_near_or_far_is_not_cut_off)
     for (int s = 0; s < 3; s++) {
         struct camera camera = camera_default();
         camera_zoom(&camera, sizes[s] / camera.distance);
-        const struct view view = look(&camera);
+        const struct plotted view = look(&camera);
         for (int i = 0; i < 3; i++) {
             const float away = seen[i] * camera.distance;
             const float depth = (view.projection[14] - view.projection[10] * away) / away;
@@ -67,7 +67,7 @@ TEST(a_fitted_box_fills_the_picture_from_any_side)
         struct camera camera = camera_default();
         camera_orbit(&camera, 0.26f * (float)step, 0.1f * (float)(step % 12) - 0.4f);
         camera_fit(&camera, lo, hi, viewport[2] / viewport[3], 0);
-        const struct view view = look(&camera);
+        const struct plotted view = look(&camera);
         float outermost = 0.0f;
         for (int k = 0; k < 3; k++) {
             for (int side = 0; side < 2; side++) {
@@ -90,7 +90,7 @@ TEST(a_picture_of_another_shape_shows_what_was_fitted)
     camera_fit(&camera, lo, hi, 2.5f, 0);
     const float distance = camera.distance;
     camera_reshape(&camera, narrow[2] / narrow[3]);
-    struct view view;
+    struct plotted view;
     camera_matrices(&camera, narrow[2] / narrow[3], view.view, view.projection, view.eye);
     for (int face = 0; face < 6; face++) {
         float place[3], screen[2];
@@ -118,7 +118,7 @@ TEST(panning_follows_the_pointer)
     struct camera camera = camera_default();
     const float target[3] = {camera.target[0], camera.target[1], camera.target[2]};
     camera_pan(&camera, 60.0f, -25.0f, viewport[3]);
-    const struct view view = look(&camera);
+    const struct plotted view = look(&camera);
     float screen[2];
     assert_true(project(&view, target, screen));
     assert_near(screen[0], 660.0, 0.1);

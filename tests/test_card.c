@@ -18,7 +18,7 @@ static void open_scene(struct blind *b, const char *scene)
 static void welcome(struct blind *b, float width)
 {
     app_resize(&b->app, width, roundf(width * 9 / 16), 1);
-    b->app.work.editor->core.refit_stage = true; // as in a window of that size
+    b->app.work.editor->core.view.refit_stage = true; // as in a window of that size
     dialogs_welcome(b->app.work.editor->dialogs);
     for (int i = 0; i < 2; i++) blind_frame(b);
 }
@@ -52,7 +52,7 @@ TEST(it_covers_no_character)
         for (float width = 640; width <= 1280; width += 80) {
             welcome(&b, width);
             const struct editor *editor = b.app.work.editor;
-            const struct rect card = words(editor), stage = editor->core.layout.stage;
+            const struct rect card = words(editor), stage = editor->core.view.layout.stage;
             if (covers_a_character(editor, card)) fail_msg("%s at %g", scenes[i], (double)width);
             assert_true(card.x >= stage.x && card.x + card.w <= stage.x + stage.w);
             assert_true(card.y >= stage.y && card.y + card.h <= stage.y + stage.h);

@@ -136,8 +136,8 @@ SESSION_TEST(test_copy_and_paste_at_the_playhead, session_open(s, FIVE))
     assert_near(sway(s)->knots[5].stiffness, 50, 0);
     assert_near(sway(s)->knots[6].frame, 79.5, 0);
     assert_near(sway(s)->knots[6].value, -1, 0);
-    assert_int_equal(selection_count(&s->editor->core.selection, sway(s)), 2);
-    assert_true(selection_has(&s->editor->core.selection, sway(s)->knots[5].id)); // what was pasted is selected
+    assert_int_equal(selection_count(&s->editor->core.focus.selection, sway(s)), 2);
+    assert_true(selection_has(&s->editor->core.focus.selection, sway(s)->knots[5].id)); // what was pasted is selected
     assert_one_step(s, original);
     free(text);
 }

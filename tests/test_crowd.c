@@ -34,7 +34,7 @@ static void assert_walked(struct session *s)
     struct knot_place at = SELECTED_START;
     for (int of = 0; of < s->document->spline_count; of++) {
         for (int k = 0; k < spline(s, of)->knot_count; k++) {
-            if (!selection_has(&core->selection, spline(s, of)->knots[k].id)) continue;
+            if (!selection_has(&core->focus.selection, spline(s, of)->knots[k].id)) continue;
             expected++;
             assert_true(selected_next(core, &at));
             assert_int_equal(at.spline, of);
@@ -49,17 +49,17 @@ SESSION_TEST(edits_and_selections_are_found, open_crowd(s, CROWD))
 {
     struct core *core = &s->editor->core;
     assert_walked(s);
-    selection_set(&core->selection, spline(s, 1)->knots[CROWD - 1].id, true);
+    selection_set(&core->focus.selection, spline(s, 1)->knots[CROWD - 1].id, true);
     assert_walked(s);
     session_key(s, KEY_UP, 0); // its value
     assert_walked(s);
-    selection_set(&core->selection, spline(s, 1)->knots[100].id, true);
-    selection_set(&core->selection, spline(s, 0)->knots[1].id, true);
+    selection_set(&core->focus.selection, spline(s, 1)->knots[100].id, true);
+    selection_set(&core->focus.selection, spline(s, 0)->knots[1].id, true);
     assert_walked(s);
     core_activate(core, 0);
     assert_walked(s);
     core_activate(core, 1);
-    selection_set(&core->selection, spline(s, 1)->knots[100].id, true);
+    selection_set(&core->focus.selection, spline(s, 1)->knots[100].id, true);
     core_delete(core, 0); // indices move
     assert_true(spline(s, 1)->knot_count < CROWD);
     assert_walked(s);

@@ -29,7 +29,7 @@ TEST(of_crowded_knots_some_are_marked_and_each_is_hit)
         char target[32];
         snprintf(target, sizeof target, "knot(sway,%d)", k);
         session_click(&s, target);
-        assert_int_equal(selection_single(&s.editor->core.selection, spline(&s, 0)), k);
+        assert_int_equal(selection_single(&s.editor->core.focus.selection, spline(&s, 0)), k);
     }
     session_close(&s);
 }
@@ -41,9 +41,9 @@ TEST(swings_finer_than_a_column_are_a_band)
     static const int values[] = {-1, -1, 1, 1};
     struct session s;
     open_crowded(&s, 3200, 2, values, 4);
-    const struct rect plot = s.editor->core.layout.plot;
+    const struct rect plot = s.editor->core.view.layout.plot;
     for (double frames = 6400; frames > 3200; frames *= 0.97) {
-        s.editor->curves->view = (struct view){0, frames, -2, 2};
+        s.editor->curves->view = (struct plotted){0, frames, -2, 2};
         session_frame(&s);
         const struct drawlist *list = &s.editor->core.list;
         const struct draw_command *band = NULL;
@@ -60,7 +60,7 @@ TEST(swings_finer_than_a_column_are_a_band)
             assert_near(xy[2 * c + 2] - xy[2 * c], apart, 1e-3);
         }
     }
-    s.editor->curves->view = (struct view){0, 240, -2, 2};
+    s.editor->curves->view = (struct plotted){0, 240, -2, 2};
     session_frame(&s);
     const struct drawlist *list = &s.editor->core.list;
     for (int i = 0; i < list->count; i++) assert_int_not_equal(list->commands[i].kind, DRAW_BAND);

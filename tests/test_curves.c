@@ -12,7 +12,7 @@ static void assert_selected(const struct session *s, const char *expected)
 {
     char text[64] = "";
     for (int k = 0; k < spline(s, 0)->knot_count; k++) {
-        text[k] = selection_has(&s->editor->core.selection, spline(s, 0)->knots[k].id) ? '1' : '0';
+        text[k] = selection_has(&s->editor->core.focus.selection, spline(s, 0)->knots[k].id) ? '1' : '0';
     }
     assert_string_equal(text, expected);
 }
@@ -64,10 +64,10 @@ SESSION_TEST(test_escape_takes_a_box_back_and_a_click_clears, session_open(s, FI
 
 SESSION_TEST(test_a_knot_of_another_curve_makes_it_active, session_open(s, FIVE))
 {
-    assert_int_equal(s->editor->core.active, 0);
+    assert_int_equal(s->editor->core.focus.active, 0);
     session_point(s, "knot(up,1)");
     session_press(s, BUTTON_LEFT, 1);
-    assert_int_equal(s->editor->core.active, 1);
+    assert_int_equal(s->editor->core.focus.active, 1);
     session_drag(s, 0, -20, 4); // and the same press drags it
     session_release(s, BUTTON_LEFT);
     assert_true(spline(s, 1)->knots[1].value > 0.8);
@@ -141,8 +141,8 @@ SESSION_TEST(test_scaling_never_swallows_a_knot, session_open(s, FIVE))
 SESSION_TEST(test_a_ripple_moves_what_comes_after, session_open(s, FIVE))
 {
     const char *original = session_saved(s);
-    float frame =
-        (float)(s->editor->core.layout.plot.w / (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
+    float frame = (float)(s->editor->core.view.layout.plot.w /
+                          (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
     session_point(s, "knot(sway,2)");
     session_press(s, BUTTON_LEFT, 1);
     session_key(s, 'R', 0);
@@ -166,13 +166,13 @@ SESSION_TEST(test_a_ripple_moves_what_comes_after, session_open(s, FIVE))
 
 SESSION_TEST(test_ruler_units_and_snap, session_open(s, FIVE))
 {
-    session_move(s, s->editor->core.layout.ruler.x / 2, s->editor->core.layout.ruler.y + 8);
+    session_move(s, s->editor->core.view.layout.ruler.x / 2, s->editor->core.view.layout.ruler.y + 8);
     session_click_here(s, 1);
-    assert_true(s->editor->core.curves.seconds);
+    assert_true(s->editor->core.view.curves.seconds);
     session_key(s, 'U', 0);
-    assert_false(s->editor->core.curves.seconds);
-    float frame =
-        (float)(s->editor->core.layout.plot.w / (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
+    assert_false(s->editor->core.view.curves.seconds);
+    float frame = (float)(s->editor->core.view.layout.plot.w /
+                          (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
     session_key(s, 'G', 0); // off the frames
     session_pull(s, "knot(sway,0)", 2.25f * frame, 0, 3);
     assert_near(spline(s, 0)->knots[0].frame, 12.25, 1e-3);
@@ -198,7 +198,7 @@ SESSION_TEST(test_normalised_curves_keep_their_picture, session_open(s, FIVE))
     assert_near(high, own_high, 1.5);
     float before = line[count / 2][1];
     session_key(s, KEY_PAGE_DOWN, 0);
-    assert_int_equal(s->editor->core.active, 1);
+    assert_int_equal(s->editor->core.focus.active, 1);
     assert_near(s->editor->curves->cache.re[count / 2][1], before, 1.5); // nothing jumps
 }
 
@@ -215,7 +215,7 @@ SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
         session_click(s, target);
         session_click_here(s, 2);
         assert_int_equal(spline(s, 0)->knot_count, count + 1);
-        int k = selection_single(&s->editor->core.selection, spline(s, 0));
+        int k = selection_single(&s->editor->core.focus.selection, spline(s, 0));
         assert_near(spline(s, 0)->knots[k].frame, frame, 0);
         assert_int_equal(spline(s, 0)->knots[k].has_phase, mods != 0);
         for (int i = 0; i < 97; i++) assert_near(s->work.evaluation.curves[0].total[i], before[i], 1e-6);
@@ -225,7 +225,7 @@ SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
     s->mods = MOD_CTRL; // off frames, which leaves the active spline as it is until the second click
     session_click(s, other);
     session_click_here(s, 2);
-    assert_int_equal(s->editor->core.active, 1);
+    assert_int_equal(s->editor->core.focus.active, 1);
     assert_int_equal(spline(s, 1)->knot_count, 3);
 }
 
@@ -338,12 +338,12 @@ TEST(test_labels_never_overlap)
     struct session s;
     panel_open(&s, scene, 640, 300);
     const struct drawlist *list = &s.editor->core.list;
-    const struct rect plot = s.editor->core.layout.plot;
+    const struct rect plot = s.editor->core.view.layout.plot;
     float last = plot.y - 20;
     int labels = 0;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
-        bool beside = c->kind == DRAW_TEXT && c->x > plot.x + plot.w && c->x < s.editor->core.layout.inspector.x;
+        bool beside = c->kind == DRAW_TEXT && c->x > plot.x + plot.w && c->x < s.editor->core.view.layout.inspector.x;
         if (!beside || c->y < plot.y || c->y > plot.y + plot.h + 8) continue;
         assert_true(c->y - last > 13);
         last = c->y;
@@ -357,15 +357,15 @@ TEST(test_labels_never_overlap)
 /// Where the view is and where a knot is in it: 0 … 1 from the bottom up.
 static double height_of(const struct session *s, int i, int k)
 {
-    const struct view *view = &s->editor->curves->view;
+    const struct plotted *view = &s->editor->curves->view;
     return (spline(s, i)->knots[k].value - view->value0) / (view->value1 - view->value0);
 }
 
 /// What is inserted, pasted or nudged out of sight comes into it in small steps, and the panel keeps still under a drag.
 SESSION_TEST(test_the_view_follows_edits_smoothly, session_open(s, FIVE))
 {
-    const struct view *view = &s->editor->curves->view;
-    struct view before = *view;
+    const struct plotted *view = &s->editor->curves->view;
+    struct plotted before = *view;
     session_click(s, "ruler(80)");
     session_send(s, (struct event){.kind = EVENT_PASTE, .text = "0,6\n"});
     session_frame(s);
@@ -398,7 +398,7 @@ SESSION_TEST(test_the_view_follows_edits_smoothly, session_open(s, FIVE))
 /// The whole of the spline's curve is in sight once the view has come to rest.
 static void assert_in_sight(struct session *s, int i)
 {
-    const struct view *view = &s->editor->curves->view;
+    const struct plotted *view = &s->editor->curves->view;
     for (int frame = 0; frame < 90; frame++) session_frame(s);
     for (int sample = 0; sample < document_samples(s->document); sample++) {
         const double total = s->world.evaluation->curves[i].total[sample];
@@ -429,7 +429,7 @@ SESSION_TEST(test_the_view_follows_another_feel, panel_open(s, SWAY, 1280, 2400)
 /// What was copied behind the end is in sight, and so is all that was before.
 SESSION_TEST(test_the_view_follows_a_longer_scene, session_open(s, FIVE))
 {
-    const struct view *view = &s->editor->curves->view;
+    const struct plotted *view = &s->editor->curves->view;
     const double left = view->frame0;
     session_key(s, 'A', MOD_CTRL);
     session_key(s, 'D', MOD_CTRL);
@@ -447,7 +447,7 @@ SESSION_TEST(
                     "{\"frame\": 2, \"value\": 0.58}]}]}"))
 {
     const struct curve_cache *cache = &s->editor->curves->cache;
-    const struct rect *plot = &s->editor->core.layout.plot;
+    const struct rect *plot = &s->editor->core.view.layout.plot;
     session_key(s, KEY_HOME, 0);
     assert_true(cache->count > 100);
     for (int c = 0; c < cache->count; c++) {
@@ -462,11 +462,11 @@ static int find_bands(const struct session *s, double ends[4][2])
     const struct core *core = &s->editor->core;
     const float left = curves_x(s->editor->curves, core, 0);
     const float frame = curves_x(s->editor->curves, core, 1) - left;
-    const uint32_t rgb = spline_list_color(core->document, core->active) >> 8;
+    const uint32_t rgb = spline_list_color(core->document, core->focus.active) >> 8;
     int count = 0;
     for (int i = 0; i < core->list.count && count < 4; i++) {
         const struct draw_command *c = &core->list.commands[i];
-        if (c->kind != DRAW_RECT || c->color >> 8 != rgb || c->bounds.h < core->layout.plot.h - 1) continue;
+        if (c->kind != DRAW_RECT || c->color >> 8 != rgb || c->bounds.h < core->view.layout.plot.h - 1) continue;
         ends[count][0] = (double)((c->bounds.x - left) / frame);
         ends[count++][1] = (double)((c->bounds.x + c->bounds.w - left) / frame);
     }

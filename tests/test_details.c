@@ -172,7 +172,7 @@ SESSION_TEST(a_target_from_the_pointer, session_open(s, tail))
 {
     float x, y;
     session_move(s, 300, 200);
-    const float height = s->editor->core.layout.stage.h;
+    const float height = s->editor->core.view.layout.stage.h;
     assert_done(editor_target(s->editor, "pointer(0.1,-0.2)", &x, &y, &error));
     assert_near(x, 300 + 0.1f * height, 1e-3);
     assert_near(y, 200 - 0.2f * height, 1e-3);

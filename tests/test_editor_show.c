@@ -40,7 +40,8 @@ static void pull(struct session *s, float share, float dx, float dy)
 static int selected_from(const struct session *s, unsigned id)
 {
     int count = 0;
-    for (; id < s->editor->core.selection.capacity; id++) count += selection_has(&s->editor->core.selection, id);
+    for (; id < s->editor->core.focus.selection.capacity; id++)
+        count += selection_has(&s->editor->core.focus.selection, id);
     return count;
 }
 
@@ -252,7 +253,7 @@ SESSION_TEST(test_playing_and_scrubbing, session_open(s, TAIL))
 {
     const struct stage_view *stage = editor_stage(s->editor);
     session_click(s, "ruler(30)");
-    assert_false(s->editor->core.playback.playing);
+    assert_false(s->editor->core.view.playback.playing);
     uint64_t at_30 = stage->hash;
     session_key(s, KEY_RIGHT, 0);
     assert_true(stage->hash != at_30);
@@ -265,7 +266,7 @@ SESSION_TEST(test_playing_and_scrubbing, session_open(s, TAIL))
     session_click(s, "ruler(30)");
     session_key(s, KEY_SPACE, 0);
     for (int i = 0; i < 299; i++) session_frame(s);
-    assert_true(s->editor->core.playback.playing);
+    assert_true(s->editor->core.view.playback.playing);
     session_key(s, KEY_SPACE, 0); // 300 frames of 1/60 s are the whole loop of 5 s
     session_click(s, "ruler(30)");
     assert_true(stage->hash == at_30);
@@ -280,7 +281,7 @@ SESSION_TEST(test_space_and_drag_pans_without_playing, session_open(s, TAIL))
     session_drag(s, 35, -12, 4);
     session_release(s, BUTTON_LEFT);
     session_hold(s, KEY_SPACE, ACTION_RELEASE);
-    assert_false(s->editor->core.playback.playing);
+    assert_false(s->editor->core.view.playback.playing);
     session_point(s, "curve(sway,60,0)");
     assert_near(s->x, x + 35, 0.1);
     assert_near(s->y, y - 12, 0.1);

@@ -10,7 +10,7 @@ static const char tail_scene[] =
 
 static const struct param *of(const struct session *s, enum parameter which)
 {
-    return &s->document->splines[s->editor->core.active]->parameter[which];
+    return &s->document->splines[s->editor->core.focus.active]->parameter[which];
 }
 
 SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
@@ -55,7 +55,7 @@ static void drag_damping(struct session *s)
 static void type_wind_up(struct session *s) { panel_enter(s, "wind-up", "11"); }
 static void type_settle(struct session *s)
 {
-    s->editor->core.more = true;
+    s->editor->core.view.more = true;
     session_frame(s);
     panel_enter(s, "settle", "1.2");
 }
@@ -115,7 +115,7 @@ SESSION_TEST(test_a_weight_is_the_limbs, panel_open(s, limb_scene, 1280, 900))
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         session_close(s);
         panel_open(s, limb_scene, 1280, 900);
-        s->editor->core.more = false;
+        s->editor->core.view.more = false;
         const char *before = session_saved(s);
         cases[i].change(s);
         for (int k = 0; k < 5; k++) {
@@ -273,7 +273,7 @@ static void wait(struct session *s, int frames)
 SESSION_TEST(test_a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 600))
 {
     static const char *const names[] = {"frequency", "preset.cat", "look.cubic"};
-    const struct rect window = s->editor->core.layout.window;
+    const struct rect window = s->editor->core.view.layout.window;
     const struct tooltip *tooltip = &s->editor->tooltip;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         float x, y;
@@ -356,7 +356,7 @@ static void assert_all_explained(struct session *s)
         if (!hint)
             fail_msg("the control at %g, %g, %g × %g has no tooltip", (double)r->x, (double)r->y, (double)r->w,
                      (double)r->h);
-        assert_whole(&(struct tooltip){.text = hint, .at = *r, .rest = 1}, s->editor->core.layout.window);
+        assert_whole(&(struct tooltip){.text = hint, .at = *r, .rest = 1}, s->editor->core.view.layout.window);
     }
 }
 

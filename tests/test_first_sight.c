@@ -5,7 +5,7 @@
 static void open_first(struct session *s)
 {
     session_open_file(s, "assets/scenes/tail.json");
-    s->editor->core.more = false;
+    s->editor->core.view.more = false;
     session_frame(s);
 }
 
@@ -69,7 +69,7 @@ TEST(test_an_empty_scene_is_not_an_empty_inspector)
 {
     struct session s;
     session_open(&s, "{\"wiggly\": 1, \"frames\": [0, 96]}");
-    s.editor->core.more = false;
+    s.editor->core.view.more = false;
     assert_true(panel_shows(&s, "rig.add") && panel_shows(&s, "splines.add"));
     session_close(&s);
 }
@@ -101,7 +101,7 @@ SESSION_TEST(test_rows_stay_where_they_are, panel_open(s, mixed, 1280, 2000))
     for (int more = 0; more < 2; more++) {
         float before[5];
         const int count = more ? 5 : 3;
-        s->editor->core.more = more;
+        s->editor->core.view.more = more;
         session_frame(s);
         for (int r = 0; r < count; r++) before[r] = height_of(s, rows[r]);
         for (int i = 0; i < 5; i++) {
@@ -142,14 +142,14 @@ static float drawn_at(const struct session *s, const char *words)
 SESSION_TEST(test_the_first_frame_is_right, panel_open(s, mixed, 1280, 360))
 {
     struct inspector *inspector = s->editor->inspector;
-    s->editor->core.more = true;
+    s->editor->core.view.more = true;
     session_frame(s);
     inspector->sections.offset = 1e6f;
     session_frame(s);
     for (int unfolded = 0; unfolded < 2; unfolded++) {
         const char *title = unfolded ? "Tail set-up" : "More";
         if (unfolded) inspector_unfold(inspector, "section.tail");
-        s->editor->core.more = unfolded;
+        s->editor->core.view.more = unfolded;
         session_frame(s);
         const float first = drawn_at(s, title);
         session_frame(s);

@@ -65,12 +65,12 @@ SESSION_TEST(test_playing_is_scrubbing, open_scene(s))
     int count = 0;
     while (count < 4 * FRAMES / 2) {
         session_frame(s);
-        at[count] = s->editor->core.playback.position;
+        at[count] = s->editor->core.view.playback.position;
         played[count++] = *pose_of(s);
     }
     session_key(s, KEY_SPACE, 0);
     for (int i = count - 1; i >= 0; i -= 7) {
-        s->editor->core.playback.position = at[i];
+        s->editor->core.view.playback.position = at[i];
         session_frame(s);
         assert_memory_equal(pose_of(s)->matrix, played[i].matrix, (JOINTS + 1) * sizeof played[i].matrix[0]);
     }

@@ -103,7 +103,7 @@ SESSION_TEST(test_typing_searches_the_help, panel_open(s, scene, 1280, 720))
     panel_type(s, "onion");
     assert_true(is_seen(shown_text(s->editor, "Onion skin")));
     assert_null(shown_text(s->editor, "Double-click"));
-    assert_int_equal(s->editor->core.look, LOOK_WIGGLY);
+    assert_int_equal(s->editor->core.view.look, LOOK_WIGGLY);
 }
 
 /// F1 begins with ten rows about what the pointer is over.
@@ -170,7 +170,7 @@ SESSION_TEST(test_the_palette_does_what_the_key_does, session_open(s, scene))
 {
     search(s, "select all knots of");
     session_key(s, KEY_ENTER, 0);
-    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 2);
+    assert_int_equal(selection_count(&s->editor->core.focus.selection, s->document->splines[0]), 2);
     search(s, "delete sel");
     session_key(s, KEY_ENTER, 0);
     assert_int_equal(s->document->splines[0]->knot_count, 0);
@@ -204,7 +204,7 @@ TEST(test_the_palette_reaches_the_inspector)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct session s;
         panel_open(&s, scene, 1280, 1400);
-        s.editor->core.more = false;
+        s.editor->core.view.more = false;
         assert_false(panel_shows(&s, cases[i].shows));
         search(&s, cases[i].typed);
         session_key(&s, KEY_ENTER, 0);
@@ -238,9 +238,9 @@ SESSION_TEST(test_the_palette_flips_switches, session_open(s, scene))
             search(s, typed[i]);
             session_key(s, KEY_ENTER, 0);
         }
-        assert_int_equal(selection_has(&core->solo, s->document->splines[0]->id), on);
-        assert_int_equal(selection_has(&core->hidden, s->document->splines[0]->id), on);
-        assert_int_equal(core->record_armed, on);
+        assert_int_equal(selection_has(&core->view.solo, s->document->splines[0]->id), on);
+        assert_int_equal(selection_has(&core->view.hidden, s->document->splines[0]->id), on);
+        assert_int_equal(core->step.record_armed, on);
     }
 }
 
@@ -280,7 +280,7 @@ SESSION_TEST(test_the_palette_is_walked, session_open(s, scene))
     assert_non_null(row);
     session_move(s, row->x + 4, row->y - 4);
     session_click_here(s, 1);
-    assert_true(s->editor->core.overlays.onion);
+    assert_true(s->editor->core.view.overlays.onion);
 }
 
 // --- the table -------------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ static void paste_cut(struct session *s)
     session_key(s, 'X', MOD_CTRL);
     char *text = strdup(s->editor->core.clipboard);
     assert_int_equal(s->document->splines[0]->knot_count, 0);
-    s->editor->core.playback.position = 30;
+    s->editor->core.view.playback.position = 30;
     session_send(s, (struct event){.kind = EVENT_PASTE, .text = text});
     session_frame(s);
     free(text);
@@ -250,7 +250,7 @@ TEST(test_a_still_knot_is_where_it_is_seen)
         "{\"wiggly\": 2, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": "
         "0.1, \"equilibrium\": 2, \"knots\": [{\"frame\": 24, \"value\": 2.5}, {\"frame\": 48, \"still\": true}]}]}");
     session_hover(&s, "knot(sway,1)");
-    assert_ptr_equal(s.editor->core.hover.thing, &thing_knot);
+    assert_ptr_equal(s.editor->core.input.hover.thing, &thing_knot);
     assert_non_null(shown_text(
         s.editor, "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)"));
     session_close(&s);

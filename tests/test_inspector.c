@@ -68,24 +68,24 @@ SESSION_TEST(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 
     assert_true(inspector_ui(s->editor->inspector)->typing);
     session_key(s, 'A', MOD_CTRL); // all of what is typed, not all knots
     panel_type(s, "v m.");
-    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 0);
+    assert_int_equal(selection_count(&s->editor->core.focus.selection, s->document->splines[0]), 0);
     session_key(s, KEY_END, 0);
     session_key(s, 'A', MOD_CTRL);
     panel_type(s, "x");
     assert_string_equal(s->editor->inspector->ui.text.bytes, "x");
     session_key(s, KEY_DELETE, 0);
     session_key(s, KEY_SPACE, 0);
-    assert_int_equal(s->editor->core.look, LOOK_WIGGLY);
+    assert_int_equal(s->editor->core.view.look, LOOK_WIGGLY);
     assert_int_equal(spline_mode(s->document->splines[0]), WIGGLY_COMPLEX);
     assert_int_equal(s->document->splines[0]->knot_count, 3);
-    assert_false(s->editor->core.playback.playing);
+    assert_false(s->editor->core.view.playback.playing);
     session_key(s, KEY_F1, 0);
     assert_true(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, KEY_ESCAPE, 0);
     assert_false(inspector_ui(s->editor->inspector)->typing);
     session_key(s, 'V', 0);
-    assert_int_equal(s->editor->core.look, LOOK_STIFF);
+    assert_int_equal(s->editor->core.view.look, LOOK_STIFF);
 }
 
 SESSION_TEST(test_arrows_belong_to_the_focus, panel_open(s, scene, 1280, 720))
@@ -94,12 +94,12 @@ SESSION_TEST(test_arrows_belong_to_the_focus, panel_open(s, scene, 1280, 720))
     session_key(s, KEY_RIGHT, 0);
     session_key(s, KEY_RIGHT, 0);
     assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1.1, 0);
-    assert_near(s->editor->core.playback.position, 0, 0);
+    assert_near(s->editor->core.view.playback.position, 0, 0);
     session_key(s, 'Z', MOD_CTRL); // the run of nudges is one step
     assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, KEY_RIGHT, 0);
-    assert_near(s->editor->core.playback.position, 1, 0);
+    assert_near(s->editor->core.view.playback.position, 1, 0);
     assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
 }
 
@@ -114,19 +114,19 @@ SESSION_TEST(test_only_what_counts_is_shown, panel_open(s, scene, 1280, 1700))
     panel_click(s, "mode.cubic");
     assert_false(panel_shows(s, "frequency"));
     panel_click(s, "spline.lift");
-    assert_int_equal(s->editor->core.active, 2);
+    assert_int_equal(s->editor->core.focus.active, 2);
     assert_false(panel_shows(s, "frequency")); // a track drives it
     assert_true(panel_shows(s, "damping"));
     panel_click(s, "start.loop");
     assert_int_equal(spline_start(s->document->splines[2]), WIGGLY_LOOP);
     panel_click(s, "look.cubic");
-    assert_int_equal(s->editor->core.look, LOOK_CUBIC);
+    assert_int_equal(s->editor->core.view.look, LOOK_CUBIC);
 }
 
 SESSION_TEST(test_knot_is_edited_in_place, panel_open(s, scene, 1280, 1600))
 {
     unsigned id = s->document->splines[0]->knots[1].id;
-    selection_set(&s->editor->core.selection, id, true);
+    selection_set(&s->editor->core.focus.selection, id, true);
     panel_enter(s, "value", "0.75");
     assert_near(s->document->splines[0]->knots[1].value, 0.75, 0);
     panel_enter(s, "value", "8"); // above all that was in sight
@@ -158,7 +158,7 @@ SESSION_TEST(test_the_knot_section_without_a_knot, panel_open(s, scene, 1280, 14
 {
     float x, y[2];
     assert_true(inspector_target(s->editor->inspector, "section.splines", &x, &y[0]));
-    s->editor->core.playback.position = 20;
+    s->editor->core.view.playback.position = 20;
     panel_click(s, "knot.insert");
     assert_int_equal(s->document->splines[0]->knot_count, 4);
     assert_near(s->document->splines[0]->knots[1].frame, 20, 0);
@@ -167,7 +167,7 @@ SESSION_TEST(test_the_knot_section_without_a_knot, panel_open(s, scene, 1280, 14
     assert_false(panel_shows(s, "knot.insert"));
     session_key(s, KEY_ESCAPE, 0);
     panel_click(s, "knot.next");
-    assert_near(s->editor->core.playback.position, 36, 0);
+    assert_near(s->editor->core.view.playback.position, 36, 0);
     session_key(s, KEY_ESCAPE, 0);
     panel_click(s, "knot.all");
     assert_true(panel_shows(s, "slope.flat"));
@@ -205,7 +205,7 @@ SESSION_TEST(test_several_knots, panel_open(s, scene, 1280, 1600))
 
 SESSION_TEST(test_frame_drag_passes_through_a_neighbour, panel_open(s, scene, 1280, 720))
 {
-    selection_set(&s->editor->core.selection, s->document->splines[0]->knots[1].id, true);
+    selection_set(&s->editor->core.focus.selection, s->document->splines[0]->knots[1].id, true);
     panel_press(s, "frame", 1);
     float x = s->x;
     for (int moved = 3; moved <= 30; moved++) session_move(s, x + (float)moved, s->y);
@@ -261,7 +261,7 @@ TEST(test_tail_array_scales_as_a_whole)
 static bool shows_text(struct session *f, const char *part)
 {
     struct drawlist *list = &f->editor->core.list;
-    drawlist_clear(list, f->editor->core.layout.window);
+    drawlist_clear(list, f->editor->core.view.layout.window);
     inspector_show(f->editor->inspector, false);
     for (int i = 0; i < list->count; i++) {
         if (list->commands[i].kind == DRAW_TEXT && strstr(list->text + list->commands[i].first, part)) return true;

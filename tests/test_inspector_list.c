@@ -6,7 +6,10 @@ static const char scene[] =
     "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"channels\": ["
     "{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\"}]}]}";
 
-static const char *active_name(const struct session *f) { return f->document->splines[f->editor->core.active]->name; }
+static const char *active_name(const struct session *f)
+{
+    return f->document->splines[f->editor->core.focus.active]->name;
+}
 
 SESSION_TEST(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 720))
 {
@@ -18,7 +21,7 @@ SESSION_TEST(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 
     assert_near(s->document->splines[3]->parameter[PARAMETER_FREQUENCY].value, 1, 0);
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
-    assert_true(s->editor->core.active >= 0 && s->editor->core.active < 3);
+    assert_true(s->editor->core.focus.active >= 0 && s->editor->core.focus.active < 3);
 }
 
 /// What is being edited stays what it is when the list around it changes, and when that is undone.
@@ -28,7 +31,7 @@ SESSION_TEST(test_the_active_spline_is_followed, panel_open(s, scene, 1280, 720)
     const char *before = session_saved(s);
     panel_click(s, "splines.down");
     assert_string_equal(active_name(s), "pace");
-    assert_int_equal(s->editor->core.active, 2);
+    assert_int_equal(s->editor->core.focus.active, 2);
     assert_one_step(s, before);
     assert_string_equal(active_name(s), "pace");
     session_key(s, 'Z', MOD_CTRL);
@@ -73,7 +76,7 @@ SESSION_TEST(test_an_empty_list, panel_open(s, scene, 960, 680))
         if (s->editor->dialogs->dialog.kind == DIALOG_ASK) session_key(s, 'D', 0);
     }
     assert_int_equal(s->document->spline_count, 0);
-    assert_int_equal(s->editor->core.active, -1);
+    assert_int_equal(s->editor->core.focus.active, -1);
     panel_click(s, "splines.delete");
     panel_click(s, "splines.copy");
     panel_click(s, "splines.add");
@@ -213,7 +216,7 @@ SESSION_TEST(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 1640))
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(s, 'T', 0);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
-    assert_near(s->editor->core.playback.position, 50, 0); // inside again
+    assert_near(s->editor->core.view.playback.position, 50, 0); // inside again
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
     panel_enter(s, "scene.last", "50");
@@ -224,7 +227,7 @@ SESSION_TEST(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 1640))
     panel_enter(s, "scene.first", "60");
     assert_non_null(strstr(s->editor->core.message.text, "the last frame must not be before the first"));
     panel_enter(s, "scene.first", "-10"); // the playhead stays on its frame
-    assert_near(s->editor->core.playback.position, 60, 0);
+    assert_near(s->editor->core.view.playback.position, 60, 0);
     panel_enter(s, "scene.substeps", "4");
     assert_near(core_frame(&s->editor->core), 50, 0);
     assert_int_equal(s->document->substeps, 4);
@@ -257,7 +260,7 @@ static void random_input(struct session *f, unsigned *seed)
 {
     static const int keys[] = {KEY_ENTER, KEY_ESCAPE, KEY_TAB, KEY_UP, KEY_DOWN,  KEY_LEFT,
                                KEY_RIGHT, KEY_DELETE, KEY_F2,  '3',    KEY_SPACE, KEY_BACKSPACE};
-    struct rect area = f->editor->core.layout.inspector;
+    struct rect area = f->editor->core.view.layout.inspector;
     switch (next_random(seed) % 6) {
     case 0:
     case 1:

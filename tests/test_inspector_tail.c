@@ -60,7 +60,7 @@ TALL_TEST(test_channels)
     assert_int_equal(tail(s)->channels[0].spline, 1);
     panel_click(s, "channel.add");
     assert_int_equal(tail(s)->channel_count, 2);
-    assert_int_equal(tail(s)->channels[1].spline, s->editor->core.active);
+    assert_int_equal(tail(s)->channels[1].spline, s->editor->core.focus.active);
     assert_int_equal(s->editor->inspector->channel, 1);
     panel_click(s, "channel.0");
     panel_click(s, "channel.delete");
@@ -154,6 +154,7 @@ TALL_TEST(test_toggles)
     panel_click(s, "onion");
     panel_click(s, "trail");
     panel_click(s, "record");
-    assert_true(s->editor->core.overlays.onion && s->editor->core.overlays.trail && s->editor->core.record_armed);
+    assert_true(s->editor->core.view.overlays.onion && s->editor->core.view.overlays.trail &&
+                s->editor->core.step.record_armed);
     assert_null(history_undo_label(s->history));
 }

@@ -22,7 +22,7 @@ static void open_beast(struct session *session, const char *equilibrium)
         "\"lag\": 20, \"gain\": 8}]}]}",
         equilibrium, folder_path("beast.glb"));
     panel_open_models(session, scene);
-    if (session->editor->core.playback.playing) session_key(session, KEY_SPACE, 0);
+    if (session->editor->core.view.playback.playing) session_key(session, KEY_SPACE, 0);
     session_move(session, 2, 2);
     session_frame(session);
 }
@@ -88,7 +88,7 @@ SESSION_TEST(test_a_joint_is_found_by_typing, open_beast(s, FOLLOWS))
 static int lines_on_stage(const struct session *session)
 {
     const struct drawlist *list = &session->editor->core.list;
-    const struct rect stage = session->editor->core.layout.stage;
+    const struct rect stage = session->editor->core.view.layout.stage;
     int count = 0;
     for (int i = 0; i < list->count; i++) {
         const struct rect *r = &list->commands[i].bounds;
@@ -213,17 +213,17 @@ SESSION_TEST(test_a_large_gain_is_on_its_slider, open_beast(s, "0"))
 SESSION_TEST(test_undoing_a_chain_activates_what_was_active, open_beast(s, "0"))
 {
     session_key(s, KEY_PAGE_UP, 0);
-    assert_int_equal(s->editor->core.active, 1);
+    assert_int_equal(s->editor->core.focus.active, 1);
     session_click(s, "bone(ear_L_1)");
     session_key(s, 'J', 0);
     session_click(s, "bone(leg_FL_1)");
     session_key(s, 'J', 0);
-    assert_int_equal(s->editor->core.active, 4);
+    assert_int_equal(s->editor->core.focus.active, 4);
     session_key(s, 'Z', MOD_CTRL);
-    assert_int_equal(s->editor->core.active, 2);
+    assert_int_equal(s->editor->core.focus.active, 2);
     assert_int_equal(s->editor->inspector->rig, 2);
     session_key(s, 'Z', MOD_CTRL);
-    assert_int_equal(s->editor->core.active, 1);
+    assert_int_equal(s->editor->core.focus.active, 1);
     assert_int_equal(s->editor->inspector->rig, 1);
 }
 
@@ -234,7 +234,7 @@ static bool knot_is_seen(const struct session *s)
     const struct spline *spline = s->document->splines[0];
     assert_int_equal(spline->knot_count, 1);
     const float y = curves_y(s->editor->curves, core, spline->knots[0].value);
-    return y >= core->layout.plot.y && y <= core->layout.plot.y + core->layout.plot.h;
+    return y >= core->view.layout.plot.y && y <= core->view.layout.plot.y + core->view.layout.plot.h;
 }
 
 SESSION_TEST(test_the_curves_show_a_knot_that_was_pulled, open_beast(s, "0"))

@@ -14,7 +14,7 @@ static const char jump[] = "{\"wiggly\": 1, \"frames\": [0, 72], \"splines\": [{
 
 static bool is_selected(const struct session *s, int knot)
 {
-    return selection_has(&s->editor->core.selection, s->document->splines[0]->knots[knot].id);
+    return selection_has(&s->editor->core.focus.selection, s->document->splines[0]->knots[knot].id);
 }
 
 SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, scene))
@@ -27,12 +27,12 @@ SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, scene))
     for (int k = 0; k < 3; k++) assert_true(is_selected(s, k));
     assert_false(is_selected(s, 3));
     for (int i = 0; i < 3; i++) session_type(s, "<"); // there is nothing before the first
-    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 3);
+    assert_int_equal(selection_count(&s->editor->core.focus.selection, s->document->splines[0]), 3);
 }
 
 SESSION_TEST(test_the_curves_pan_and_zoom, session_open(s, scene))
 {
-    const struct view before = s->editor->curves->view;
+    const struct plotted before = s->editor->curves->view;
     session_key(s, KEY_RIGHT, MOD_CTRL);
     session_key(s, KEY_UP, MOD_CTRL);
     assert_true(s->editor->curves->view.frame0 > before.frame0 && s->editor->curves->view.value0 > before.value0);
@@ -62,7 +62,7 @@ SESSION_TEST(test_the_camera_turns_and_comes_back, session_open(s, scene))
 
 SESSION_TEST(test_panels_have_sizes_to_choose_from, session_open(s, scene))
 {
-    const struct layout *layout = &s->editor->core.layout, first = *layout;
+    const struct layout *layout = &s->editor->core.view.layout, first = *layout;
     session_key(s, KEY_F6, 0);
     session_key(s, KEY_F6, MOD_SHIFT);
     assert_true(layout->stage_share > first.stage_share && layout->inspector_width > first.inspector_width);

@@ -31,7 +31,7 @@ SESSION_TEST(a_line_is_dragged_as_far_as_the_knots, session_open(s, swinging))
     const char *original = session_saved(s);
     assert_non_null(strstr(original, "\"limits\": [null, 1.2]"));
     session_hover(s, "curve(sway,100,1.2)");
-    assert_ptr_equal(s->editor->core.hover.thing, &thing_limit);
+    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_limit);
     pull(s, "curve(sway,100,1.2)", "curve(sway,100,1.05)");
     assert_near(limit(s, PARAMETER_HIGH), 1.05, 0.01);
     assert_true(highest(s) == limit(s, PARAMETER_HIGH) || highest(s) == 1);

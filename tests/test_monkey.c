@@ -181,19 +181,21 @@ static void assert_editor(const struct app *app)
 {
     const struct editor *editor = app->work.editor;
     const struct document *d = app->work.document;
-    bool dragging = editor->core.drag.owner || inspector_is_dragging(editor->inspector);
+    bool dragging = editor->core.input.drag.owner || inspector_is_dragging(editor->inspector);
     const struct ui *ui = &editor->inspector->ui;
     if (history_is_open(app->work.history) && !dragging) {
-        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", editor->core.drag.owner != NULL,
-                 editor->core.drag.moved, ui->held, ui->moved, editor->dialogs->dialog.kind);
+        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d",
+                 editor->core.input.drag.owner != NULL, editor->core.input.drag.moved, ui->held, ui->moved,
+                 editor->dialogs->dialog.kind);
     }
-    if (d->spline_count == 0) assert_int_equal(editor->core.active, -1);
-    if (d->spline_count > 0) assert_in_range(editor->core.active, 0, d->spline_count - 1);
-    if (editor->core.active >= 0) assert_int_equal(d->splines[editor->core.active]->id, editor->core.active_id);
-    for (unsigned id = d->next_id; id < editor->core.selection.capacity; id++) {
-        assert_false(selection_has(&editor->core.selection, id));
+    if (d->spline_count == 0) assert_int_equal(editor->core.focus.active, -1);
+    if (d->spline_count > 0) assert_in_range(editor->core.focus.active, 0, d->spline_count - 1);
+    if (editor->core.focus.active >= 0)
+        assert_int_equal(d->splines[editor->core.focus.active]->id, editor->core.focus.active_id);
+    for (unsigned id = d->next_id; id < editor->core.focus.selection.capacity; id++) {
+        assert_false(selection_has(&editor->core.focus.selection, id));
     }
-    assert_in_range(editor->core.playback.position, 0, document_samples(d) - 1);
+    assert_in_range(editor->core.view.playback.position, 0, document_samples(d) - 1);
 }
 
 /// Lets go of everything.

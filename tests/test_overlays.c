@@ -24,7 +24,7 @@ static struct found find(const struct session *s, enum draw_kind kind, uint32_t 
 {
     struct found found = {.count = 0};
     const struct drawlist *list = &s->editor->core.list;
-    const struct rect *stage = &s->editor->core.layout.stage;
+    const struct rect *stage = &s->editor->core.view.layout.stage;
     for (int i = 0; i < list->count && found.count < MAX_FOUND; i++) {
         const struct draw_command *command = &list->commands[i];
         bool inside =
@@ -67,7 +67,7 @@ SESSION_TEST(test_onion_shows_the_nearest_knots, session_open(s, scene))
     session_key(s, KEY_DELETE, 0);
     assert_int_equal(find(s, DRAW_LINE, color).count, 0);
     session_key(s, 'O', 0);
-    assert_false(s->editor->core.overlays.onion);
+    assert_false(s->editor->core.view.overlays.onion);
 }
 
 /// A mark a frame, where the tip will be; the range's ends are the arc's.
@@ -111,8 +111,8 @@ SESSION_TEST(test_overlays_outlive_documents,
     session_key(s, 'O', MOD_SHIFT);
     editor_open(s->editor, &s->world);
     session_frame(s);
-    assert_true(s->editor->core.overlays.onion);
-    assert_true(s->editor->core.overlays.trail);
+    assert_true(s->editor->core.view.overlays.onion);
+    assert_true(s->editor->core.view.overlays.trail);
 }
 
 SESSION_TEST(test_the_ghost_is_the_pose_at_the_knot_in_hand, session_open(s, scene))

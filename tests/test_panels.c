@@ -64,20 +64,20 @@ static int assert_texts_apart(const struct drawlist *list, int first, struct rec
     return count;
 }
 
-static void show(struct session *f) { drawlist_clear(&f->editor->core.list, f->editor->core.layout.window); }
+static void show(struct session *f) { drawlist_clear(&f->editor->core.list, f->editor->core.view.layout.window); }
 
 static void check_inspector(struct session *f)
 {
     const struct spline *spline = core_active_spline(&f->editor->core);
     for (int selected = 0; selected < 2; selected++) {
         if (selected && spline->knot_count > 0) {
-            selection_set(&f->editor->core.selection, spline->knots[0].id, true);
+            selection_set(&f->editor->core.focus.selection, spline->knots[0].id, true);
         }
         for (int page = 0; page < 3; page++) {
             f->editor->inspector->sections.offset = 150.0f * (float)page;
             show(f);
             inspector_show(f->editor->inspector, false);
-            assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.inspector) > 15);
+            assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.view.layout.inspector) > 15);
         }
     }
 }
@@ -94,7 +94,7 @@ static void check_status(struct session *f)
         core_message(&f->editor->core, true, "%s", messages[m]);
         show(f);
         transport_show(&f->editor->status, &f->editor->core, NULL);
-        const int texts = assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status);
+        const int texts = assert_texts_apart(&f->editor->core.list, 0, f->editor->core.view.layout.status);
         // The figures and the scene's name may give way to a long message.
         assert_in_range(texts, messages[m] == long_message ? 7 : 9, 9);
     }
@@ -116,7 +116,7 @@ static void check_dialogs(struct session *f)
         for (int failed = 0; failed < 2; failed++) {
             show(f);
             dialogs_show(f->editor->dialogs, &f->editor->core);
-            assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.window) >= 4);
+            assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.view.layout.window) >= 4);
             f->editor->dialogs->dialog.awaited = REQUEST_SAVE;
             panel_answer(
                 f, REQUEST_SAVE, false,
@@ -332,7 +332,7 @@ SESSION_TEST(test_dialog_takes_every_key, panel_open(s, small_scene, 1280, 720))
     session_key(s, 'Z', MOD_CTRL);
     session_key(s, KEY_F1, 0);
     session_key(s, KEY_DELETE, 0);
-    assert_int_equal(s->editor->core.look, LOOK_WIGGLY);
+    assert_int_equal(s->editor->core.view.look, LOOK_WIGGLY);
     assert_false(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
     assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "vim. ");
@@ -357,7 +357,7 @@ SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280
 SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_open(s, small_scene, 1280, 720))
 {
     static const float sizes[][2] = {{390, 792}, {360, 560}, {768, 972}};
-    const struct layout *l = &s->editor->core.layout;
+    const struct layout *l = &s->editor->core.view.layout;
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         const struct rect *const panels[] = {&l->stage, &l->curves, &l->inspector, &l->status};
         float y = 0;
@@ -390,7 +390,7 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
         s->finger = finger;
         session_move(s, knot[0] + 14, knot[1]);
         session_frame(s);
-        assert_int_equal(s->editor->core.hover.thing == &thing_knot, finger);
+        assert_int_equal(s->editor->core.input.hover.thing == &thing_knot, finger);
     }
     editor_resize(s->editor, 792, 390, 1);
     assert_true(l->inspector.x > 400);
@@ -399,7 +399,7 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
 SESSION_TEST(test_a_drag_beside_its_controls_scrolls_the_inspector, panel_open(s, small_scene, 390, 792))
 {
     struct ui_list *scroll = &s->editor->inspector->sections;
-    session_move(s, 30, s->editor->core.layout.inspector.y + 150);
+    session_move(s, 30, s->editor->core.view.layout.inspector.y + 150);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, -80, 4);
     assert_near(scroll->offset, 80, 0);
@@ -421,8 +421,8 @@ SESSION_TEST(test_a_message_takes_the_whole_of_a_narrow_status_line, panel_open(
     assert_false(session_shows(s, "Auto-key"));
     session_move(s, 20, 780); // over the play button
     session_click_here(s, 1);
-    assert_false(s->editor->core.playback.playing);
+    assert_false(s->editor->core.view.playback.playing);
     assert_true(session_shows(s, "Auto-key"));
     session_click_here(s, 1);
-    assert_true(s->editor->core.playback.playing);
+    assert_true(s->editor->core.view.playback.playing);
 }

@@ -172,16 +172,16 @@ SESSION_TEST(test_the_selected_mark_is_taken_first, open_tail(s))
     assert_true(marks[1][0] - marks[0][0] > 1 && marks[1][0] - marks[0][0] < 5);
     for (int chosen = -1; chosen < 2; chosen++) {
         for (int m = 0; m < 2; m++) {
-            s->editor->core.pin = (struct pin_selection){.any = chosen >= 0, .id = pin_of(s, chosen > 0)->id};
+            s->editor->core.focus.pin = (struct pin_selection){.any = chosen >= 0, .id = pin_of(s, chosen > 0)->id};
             session_move(s, marks[m][0], marks[m][1]);
             session_frame(s);
-            assert_ptr_equal(s->editor->core.hover.thing, &thing_pin_time);
-            assert_int_equal(s->editor->core.hover.pin, pin_of(s, chosen >= 0 ? chosen : m)->id);
+            assert_ptr_equal(s->editor->core.input.hover.thing, &thing_pin_time);
+            assert_int_equal(s->editor->core.input.hover.pin, pin_of(s, chosen >= 0 ? chosen : m)->id);
         }
     }
     session_move(s, marks[1][0] + 20, marks[1][1]);
     session_frame(s);
-    assert_ptr_not_equal(s->editor->core.hover.thing, &thing_pin_time);
+    assert_ptr_not_equal(s->editor->core.input.hover.thing, &thing_pin_time);
 }
 
 /// A pin that throws a rig far makes its curves high: they come into sight.
@@ -193,7 +193,7 @@ SESSION_TEST(test_the_curves_follow_a_pin, panel_open_models(s, creature))
     session_release(s, BUTTON_LEFT);
     assert_int_equal(pins_of(s), 1);
     for (int frame = 0; frame < 90; frame++) session_frame(s);
-    const struct view *view = &s->editor->curves->view;
+    const struct plotted *view = &s->editor->curves->view;
     for (int i = 0; i < 2; i++) {
         for (int sample = 0; sample <= 60; sample++) {
             const double total = s->world.evaluation->curves[i].total[sample];
@@ -209,7 +209,7 @@ SESSION_TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer, 
     const char *before = session_saved(s);
     session_point(s, "character(c,0.5,0.9)");
     session_frame(s);
-    assert_ptr_equal(s->editor->core.hover.thing, &thing_point);
+    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_point);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 25, 8, 4);
     session_release(s, BUTTON_LEFT);
@@ -227,7 +227,7 @@ SESSION_TEST(test_what_hardly_moves_does_not_light_up, panel_open_models(s, crea
     session_frame(s);
     session_point(s, "character(c,0.4,0.01)");
     session_frame(s);
-    assert_null(s->editor->core.hover.thing);
+    assert_null(s->editor->core.input.hover.thing);
 }
 
 /// Without a mouse: H pins what moves most, Tab leads to its numbers.

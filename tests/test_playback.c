@@ -30,17 +30,17 @@ SESSION_TEST(test_speed, open_at(s, 10))
     static const double slower[] = {0.5, 0.25, 0.1, 0.1}, faster[] = {0.25, 0.5, 1, 2, 4, 4};
     for (int i = 0; i < 4; i++) {
         session_type(s, "-");
-        assert_near(s->editor->core.playback.speed, slower[i], 0);
+        assert_near(s->editor->core.view.playback.speed, slower[i], 0);
     }
-    s->editor->core.playback.playing = true;
+    s->editor->core.view.playback.playing = true;
     pass(s, 1);
     assert_near(frame_of(s), 12.4, 1e-9);
     for (int i = 0; i < 6; i++) {
         session_type(s, i % 2 ? "+" : "=");
-        assert_near(s->editor->core.playback.speed, faster[i], 0);
+        assert_near(s->editor->core.view.playback.speed, faster[i], 0);
     }
     playback_seek(&s->editor->core, 0);
-    s->editor->core.playback.playing = true;
+    s->editor->core.view.playback.playing = true;
     pass(s, 0.5);
     assert_near(frame_of(s), 48, 1e-9);
     assert_true(history_is_saved(s->history)); // a matter of the view
@@ -51,24 +51,24 @@ SESSION_TEST(test_dropped_frames, open_at(s, 0))
 {
     session_key(s, KEY_SPACE, 0);
     for (int i = 0; i < 119; i++) pass(s, 1.0 / 60);
-    assert_int_equal(s->editor->core.playback.dropped, 0);
+    assert_int_equal(s->editor->core.view.playback.dropped, 0);
     assert_near(frame_of(s), 48, 1e-9);
     pass(s, 0.25); // from 48 to 54: 49 … 53 were not shown
-    assert_int_equal(s->editor->core.playback.dropped, 5);
+    assert_int_equal(s->editor->core.view.playback.dropped, 5);
     pass(s, 0.3125); // to 61.5: nor 55 … 60
-    assert_int_equal(s->editor->core.playback.dropped, 11);
+    assert_int_equal(s->editor->core.view.playback.dropped, 11);
     session_key(s, KEY_SPACE, 0);
     session_key(s, KEY_SPACE, 0); // counted from the start of playing
-    assert_int_equal(s->editor->core.playback.dropped, 0);
+    assert_int_equal(s->editor->core.view.playback.dropped, 0);
 }
 
 /// What a display of 60 pictures a second cannot show at four times the speed was not dropped.
 SESSION_TEST(test_fast_is_not_dropped, open_at(s, 0))
 {
-    s->editor->core.playback.speed = 4;
+    s->editor->core.view.playback.speed = 4;
     session_key(s, KEY_SPACE, 0);
     for (int i = 0; i < 200; i++) pass(s, 1.0 / 60);
-    assert_int_equal(s->editor->core.playback.dropped, 0);
+    assert_int_equal(s->editor->core.view.playback.dropped, 0);
 }
 
 SESSION_TEST(test_part, open_at(s, 20))
@@ -86,21 +86,21 @@ SESSION_TEST(test_part, open_at(s, 20))
     session_key(s, 'L', MOD_CTRL);
     pass(s, 1);
     assert_near(frame_of(s), 30, 1e-9); // no loop: stops at its end
-    assert_false(s->editor->core.playback.playing);
+    assert_false(s->editor->core.view.playback.playing);
     session_key(s, KEY_SPACE, 0);
     assert_near(frame_of(s), 20.4, 1e-9);
 }
 
 static float x_of(const struct session *s, double frame)
 {
-    const struct rect *plot = &s->editor->core.layout.plot;
-    const struct view *view = &s->editor->curves->view;
+    const struct rect *plot = &s->editor->core.view.layout.plot;
+    const struct plotted *view = &s->editor->curves->view;
     return plot->x + plot->w * (float)((frame - view->frame0) / (view->frame1 - view->frame0));
 }
 
 static void ruler_at(struct session *session, double frame)
 {
-    session_move(session, x_of(session, frame), session->editor->core.layout.ruler.y + 10);
+    session_move(session, x_of(session, frame), session->editor->core.view.layout.ruler.y + 10);
 }
 
 static void assert_range(const struct session *session, double first, double last)
@@ -156,9 +156,9 @@ SESSION_TEST(test_scrubbing, open_at(s, 0))
     for (double frame = 7; frame < 90; frame += 13) {
         ruler_at(s, frame + 0.3);
         session_press(s, BUTTON_LEFT, 1);
-        assert_true(s->editor->core.playback.position == 2 * frame); // bit for bit a sample
+        assert_true(s->editor->core.view.playback.position == 2 * frame); // bit for bit a sample
         ruler_at(s, frame + 1.4);
-        assert_true(s->editor->core.playback.position == 2 * (frame + 1));
+        assert_true(s->editor->core.view.playback.position == 2 * (frame + 1));
         session_release(s, BUTTON_LEFT);
     }
     s->mods = MOD_CTRL;
@@ -180,21 +180,21 @@ static void click_on(struct session *session, const char *control, enum event_bu
 SESSION_TEST(test_controls, open_at(s, 10))
 {
     click_on(s, "widget(play)", BUTTON_LEFT);
-    assert_true(s->editor->core.playback.playing);
+    assert_true(s->editor->core.view.playback.playing);
     click_on(s, "widget(play)", BUTTON_LEFT);
-    assert_false(s->editor->core.playback.playing);
+    assert_false(s->editor->core.view.playback.playing);
     click_on(s, "widget(loop)", BUTTON_LEFT);
-    assert_false(s->editor->core.playback.looping);
+    assert_false(s->editor->core.view.playback.looping);
     click_on(s, "widget(speed)", BUTTON_LEFT);
-    assert_near(s->editor->core.playback.speed, 2, 0);
+    assert_near(s->editor->core.view.playback.speed, 2, 0);
     s->mods = MOD_SHIFT;
     click_on(s, "widget(speed)", BUTTON_LEFT);
     click_on(s, "widget(speed)", BUTTON_LEFT);
-    assert_near(s->editor->core.playback.speed, 0.5, 0);
+    assert_near(s->editor->core.view.playback.speed, 0.5, 0);
     s->mods = 0;
     session_wheel(s, -1);
-    assert_near(s->editor->core.playback.speed, 0.25, 0);
+    assert_near(s->editor->core.view.playback.speed, 0.25, 0);
     click_on(s, "widget(speed)", BUTTON_RIGHT);
-    assert_near(s->editor->core.playback.speed, 1, 0);
+    assert_near(s->editor->core.view.playback.speed, 1, 0);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
 }

@@ -12,7 +12,7 @@ static const char scene[] =
 
 static double value(const struct session *f, enum parameter which)
 {
-    return f->document->splines[f->editor->core.active]->parameter[which].value;
+    return f->document->splines[f->editor->core.focus.active]->parameter[which].value;
 }
 
 static void open_poles(struct session *f, int spline)

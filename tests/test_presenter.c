@@ -23,19 +23,19 @@ enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 BLIND_TEST(test_keys_make_everything_larger_and_smaller, blind_open(b, NULL))
 {
     blind_key(b, '=', CTRL_SHIFT);
-    assert_near(core_of(b)->layout.window.w, 1024, 1e-3);
-    assert_near(core_of(b)->scale, 1.25, 1e-6);
+    assert_near(core_of(b)->view.layout.window.w, 1024, 1e-3);
+    assert_near(core_of(b)->view.scale, 1.25, 1e-6);
     assert_non_null(shown_text(b->app.work.editor, "125 %"));
     blind_key(b, KEY_F8, 0);
-    assert_near(core_of(b)->scale, 1.5, 1e-6);
+    assert_near(core_of(b)->view.scale, 1.5, 1e-6);
     blind_key(b, '-', CTRL_SHIFT);
     blind_key(b, '-', CTRL_SHIFT);
     blind_key(b, KEY_F8, MOD_SHIFT);
-    assert_near(core_of(b)->scale, 0.75, 1e-6);
+    assert_near(core_of(b)->view.scale, 0.75, 1e-6);
     blind_key(b, '-', CTRL_SHIFT);
-    assert_near(core_of(b)->scale, 0.75, 1e-6);
+    assert_near(core_of(b)->view.scale, 0.75, 1e-6);
     blind_key(b, '0', CTRL_SHIFT);
-    assert_near(core_of(b)->layout.window.w, 1280, 1e-3);
+    assert_near(core_of(b)->view.layout.window.w, 1280, 1e-3);
 }
 
 /// What is on the screen under the pointer stays there.
@@ -43,29 +43,29 @@ BLIND_TEST(test_the_pointer_means_the_same_place, blind_open(b, NULL))
 {
     point(b, 640, 300);
     blind_key(b, '=', CTRL_SHIFT);
-    assert_near(core_of(b)->pointer_x, 512, 1e-3);
+    assert_near(core_of(b)->input.pointer_x, 512, 1e-3);
     point(b, 700, 500);
-    assert_near(core_of(b)->pointer_x, 560, 1e-3);
-    assert_near(core_of(b)->pointer_y, 400, 1e-3);
+    assert_near(core_of(b)->input.pointer_x, 560, 1e-3);
+    assert_near(core_of(b)->input.pointer_y, 400, 1e-3);
 }
 
 BLIND_TEST(test_a_scale_without_room_is_refused, blind_open(b, NULL))
 {
     for (int i = 0; i < 4; i++) blind_key(b, '=', CTRL_SHIFT);
-    assert_near(core_of(b)->scale, 1.5, 1e-6);
+    assert_near(core_of(b)->view.scale, 1.5, 1e-6);
     assert_string_equal(core_of(b)->message.text, "175 % needs a window of 1330 × 700, not 1280 × 720");
     blind_frame(b);
     assert_non_null(shown_text(b->app.work.editor, core_of(b)->message.text)); // in full
     blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 1000, .y = 600, .scale = 1});
     blind_frame(b);
-    assert_near(core_of(b)->scale, 1.25, 1e-6);
+    assert_near(core_of(b)->view.scale, 1.25, 1e-6);
     blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 2560, .y = 1440, .scale = 2});
     blind_frame(b);
-    assert_near(core_of(b)->scale, 3, 1e-6);
-    assert_near(core_of(b)->layout.window.w, 2560 / 1.5, 1e-2);
+    assert_near(core_of(b)->view.scale, 3, 1e-6);
+    assert_near(core_of(b)->view.layout.window.w, 2560 / 1.5, 1e-2);
     blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 600, .y = 1000, .scale = 1});
     blind_frame(b);
-    assert_near(core_of(b)->scale, 1.5, 1e-6); // upright it needs less
+    assert_near(core_of(b)->view.scale, 1.5, 1e-6); // upright it needs less
 }
 
 BLIND_TEST(test_the_status_line_changes_it_by_mouse, blind_open(b, NULL))
@@ -74,28 +74,28 @@ BLIND_TEST(test_the_status_line_changes_it_by_mouse, blind_open(b, NULL))
     struct event press = {.kind = EVENT_BUTTON, .action = ACTION_PRESS, .clicks = 1, .x = x, .y = 708};
     blind_send(b, press);
     blind_frame(b);
-    assert_near(core_of(b)->scale, 1.25, 1e-6);
+    assert_near(core_of(b)->view.scale, 1.25, 1e-6);
     press.button = BUTTON_RIGHT; // the bar is higher now
     press.x *= 1.25f;
     blind_send(b, press);
     blind_frame(b);
-    assert_near(core_of(b)->scale, 1, 1e-6);
+    assert_near(core_of(b)->view.scale, 1, 1e-6);
 }
 
 BLIND_TEST(test_presenting_gives_the_stage_the_window_and_changes_nothing, blind_open(b, NULL))
 {
     char *before = text_of_document(b->app.work.document);
-    const struct layout normal = core_of(b)->layout;
+    const struct layout normal = core_of(b)->view.layout;
     blind_key(b, KEY_F5, 0);
     frames(b, 30);
-    const struct layout *l = &core_of(b)->layout;
-    assert_near(core_of(b)->scale, 1.5, 1e-6);
+    const struct layout *l = &core_of(b)->view.layout;
+    assert_near(core_of(b)->view.scale, 1.5, 1e-6);
     assert_near(l->stage.w * 1.5f, 1280, 1);
     assert_near(l->stage.h * 1.5f, 720, 1);
     assert_true(l->inspector.x >= l->window.w && l->curves.y >= l->window.h);
     assert_null(shown_text(b->app.work.editor, "Splines"));
     blind_key(b, KEY_ESCAPE, 0);
-    assert_memory_equal(&core_of(b)->layout, &normal, sizeof normal);
+    assert_memory_equal(&core_of(b)->view.layout, &normal, sizeof normal);
     assert_non_null(shown_text(b->app.work.editor, "Splines"));
     assert_true(history_is_saved(b->app.work.history));
     assert_prints(b->app.work.document, before);
@@ -108,30 +108,31 @@ BLIND_TEST(test_a_panel_comes_when_the_pointer_does, blind_open(b, NULL))
     frames(b, 30);
     point(b, 600, 300);
     frames(b, 30);
-    assert_near(core_of(b)->presenter.side, 0, 0);
+    assert_near(core_of(b)->view.presenter.side, 0, 0);
     point(b, 1275, 300);
     frames(b, 3);
-    assert_true(core_of(b)->presenter.side > 0 && core_of(b)->presenter.side < 1);
+    assert_true(core_of(b)->view.presenter.side > 0 && core_of(b)->view.presenter.side < 1);
     frames(b, 30);
-    assert_near(core_of(b)->presenter.side, 1, 0);
-    assert_near(core_of(b)->presenter.below, 0, 0);
-    assert_near(core_of(b)->layout.stage.w * 1.5f, 1280, 1); // it lies over the stage
+    assert_near(core_of(b)->view.presenter.side, 1, 0);
+    assert_near(core_of(b)->view.presenter.below, 0, 0);
+    assert_near(core_of(b)->view.layout.stage.w * 1.5f, 1280, 1); // it lies over the stage
     point(b, 1000, 300);
     frames(b, 30);
-    assert_near(core_of(b)->presenter.side, 1, 0);
+    assert_near(core_of(b)->view.presenter.side, 1, 0);
     point(b, 300, 715);
     frames(b, 30);
-    assert_near(core_of(b)->presenter.side, 0, 0);
-    assert_near(core_of(b)->presenter.below, 1, 0);
+    assert_near(core_of(b)->view.presenter.side, 0, 0);
+    assert_near(core_of(b)->view.presenter.below, 1, 0);
     blind_key(b, KEY_TAB, 0);
     frames(b, 30);
-    assert_near(core_of(b)->presenter.side, 1, 0);
-    assert_true(core_of(b)->layout.stage.w < core_of(b)->layout.inspector.x + 1); // now they share the window
+    assert_near(core_of(b)->view.presenter.side, 1, 0);
+    assert_true(core_of(b)->view.layout.stage.w <
+                core_of(b)->view.layout.inspector.x + 1); // now they share the window
     blind_key(b, KEY_TAB, 0);
     frames(b, 30);
-    assert_near(core_of(b)->presenter.below, 0, 0);
+    assert_near(core_of(b)->view.presenter.below, 0, 0);
     blind_key(b, KEY_F5, 0);
-    assert_false(core_of(b)->presenter.on);
+    assert_false(core_of(b)->view.presenter.on);
 }
 
 /// There they come and go together.
@@ -140,7 +141,7 @@ BLIND_TEST(test_in_an_upright_window_all_panels_come_from_below, blind_open(b, N
     blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 390, .y = 792, .scale = 1});
     blind_key(b, KEY_F5, 0);
     frames(b, 30);
-    const struct layout *l = &core_of(b)->layout;
+    const struct layout *l = &core_of(b)->view.layout;
     assert_near(l->stage.h, 792, 0);
     assert_true(l->curves.y >= 792 && l->inspector.y >= 792);
     struct event press = {.kind = EVENT_BUTTON, .action = ACTION_PRESS, .clicks = 1, .x = 200, .y = 785};
@@ -151,7 +152,7 @@ BLIND_TEST(test_in_an_upright_window_all_panels_come_from_below, blind_open(b, N
         press.y = k ? l->inspector.y + 14 : l->ruler.y + 8;
         blind_send(b, press);
         if (!k) blind_frame(b);
-        assert_null(core_of(b)->drag.owner);
+        assert_null(core_of(b)->input.drag.owner);
         press.action = ACTION_RELEASE;
         blind_send(b, press);
     }

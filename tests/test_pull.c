@@ -15,7 +15,7 @@ static void open_still(struct blind *b, const char *scene)
 {
     blind_open(b, scene);
     blind_frame(b);
-    if (core_of(b)->playback.playing) blind_key(b, KEY_SPACE, 0);
+    if (core_of(b)->view.playback.playing) blind_key(b, KEY_SPACE, 0);
 }
 
 static void point(struct blind *b, float x, float y, unsigned mods)
@@ -56,7 +56,7 @@ static void let_go(struct blind *b, const float at[2])
 /// The first two splines, the limb's, at the playhead.
 static void read_limb(struct blind *b, wiggly_value x[2])
 {
-    for (int s = 0; s < 2; s++) x[s] = evaluation_at(&b->app.work.evaluation, s, core_of(b)->playback.position);
+    for (int s = 0; s < 2; s++) x[s] = evaluation_at(&b->app.work.evaluation, s, core_of(b)->view.playback.position);
 }
 
 /// |x| of both.
@@ -92,7 +92,7 @@ TEST(a_pull_raises_x_at_most_twice_as_far_as_the_best_direction_needs)
             blind_frame(b);
             find(b, rows[r].target, at);
             point(b, at[0], at[1], 0);
-            const struct hover *held = &core_of(b)->hover; // where the limb covers itself it is another point
+            const struct hover *held = &core_of(b)->input.hover; // where the limb covers itself it is another point
             snprintf(target, sizeof target, rows[r].along ? rows[r].along : rows[r].target,
                      (held->joint + held->fraction) / (rows[r].joints + !rows[r].joints));
             for (int w = 0; w < WAYS; w++) {
@@ -139,7 +139,7 @@ TEST(a_pull_takes_a_near_knot_along)
         playback_seek(core_of(b), frame + rows[r].away);
         blind_frame(b);
         pull(b, "tail(tail,0.97)", 0, -20, rows[r].mods, at);
-        const char *hint = core_of(b)->drag.hint;
+        const char *hint = core_of(b)->input.drag.hint;
         assert_true(rows[r].mods ? !hint
                                  : !rows[r].takes || strstr(hint, "comes along")); // the other spline's may, too
         let_go(b, at);

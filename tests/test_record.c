@@ -84,7 +84,7 @@ TEST(test_recorded_is_what_was_seen)
     for (int i = DRAGGED + 14; i < WATCHED; i++) assert_near(tip[i], live_tip[i], 0.15 * most);
     session_key(&s, KEY_SPACE, 0);
     for (int i = 5; i < DRAGGED; i += 5) { // from its first half-second on
-        s.editor->core.playback.position = 24.0 * (i + 1) / 60;
+        s.editor->core.view.playback.position = 24.0 * (i + 1) / 60;
         session_frame(&s);
         assert_near(joint_x(&s, 0), live_base[i], 0.01);
         assert_near(joint_x(&s, JOINTS) - joint_x(&s, 0), live_tip[i], 0.1 * most);
@@ -166,7 +166,7 @@ TEST(test_a_way_without_a_channel_gets_one)
     session_key(&s, KEY_SPACE, 0);
     float most = 0; // it swings: the tip's height above the base changes
     for (int f = 0; f < 90; f++) {
-        s.editor->core.playback.position = f;
+        s.editor->core.view.playback.position = f;
         session_frame(&s);
         const struct pose *pose = &s.editor->stage->strands[0].pose;
         static float first;

@@ -44,7 +44,7 @@ SESSION_TEST(test_a_second_bear_stands_beside_the_first, panel_open_models(s, be
     assert_true(second->position[0] > 0.5);
     assert_int_equal(second->drives[0].spline, 0);
     assert_int_equal(editor_stage(s->editor)->character_count, 2);
-    assert_int_equal(s->editor->core.characters.character, 1);
+    assert_int_equal(s->editor->core.focus.characters.character, 1);
     assert_one_step(s, before);
 }
 

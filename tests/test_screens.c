@@ -184,7 +184,7 @@ static const struct screen {
 
 static int problems_of(struct session *s, const char *where, bool whole)
 {
-    const struct layout *layout = &s->editor->core.layout;
+    const struct layout *layout = &s->editor->core.view.layout;
     struct legible_ground ground = {layout->window, layout->stage, whole};
     return legible_problems(&s->editor->core.list, &ground, where);
 }
@@ -195,7 +195,7 @@ static int walk_inspector(struct session *s, const char *where, bool whole)
     struct ui_list *scroll = &s->editor->inspector->sections;
     int problems = 0;
     for (int page = 0; page < 8; page++) {
-        scroll->offset = 0.5f * s->editor->core.layout.inspector.h * (float)page;
+        scroll->offset = 0.5f * s->editor->core.view.layout.inspector.h * (float)page;
         session_frame(s);
         problems += problems_of(s, where, whole);
     }

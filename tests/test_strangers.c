@@ -113,7 +113,7 @@ static void open_written(struct session *s, void (*write)(struct builder *b))
         "\"damping\": 0.1, \"knots\": []}], \"rigs\": [{\"type\": \"model\", \"name\": \"it\", \"model\": \"%s\"}]}",
         temporary_path("model.gltf"));
     panel_open_models(s, scene);
-    s->editor->core.refit_stage = true;
+    s->editor->core.view.refit_stage = true;
     session_move(s, 2, 2);
     session_frame(s);
 }
@@ -143,7 +143,7 @@ static void between(const struct session *s, const char *from, const char *to, f
     const float *b = model->pose->world[gltf_find_node(model->gltf, to)] + 12;
     float at[3];
     for (int k = 0; k < 3; k++) at[k] = model->root[12 + k] + a[k] + (b[k] - a[k]) * share;
-    const struct rect r = s->editor->core.layout.stage;
+    const struct rect r = s->editor->core.view.layout.stage;
     assert_true(camera_project(stage->view.view, stage->view.projection, (float[]){r.x, r.y, r.w, r.h}, at, xy));
 }
 
@@ -219,7 +219,7 @@ static float size_of_ear(const struct session *s)
 SESSION_TEST(test_f_frames_the_selection_and_still_holds_frequency, open_written(s, write_rig))
 {
     session_click(s, "bone(ear_L_1)");
-    const float before = size_of_ear(s), height = s->editor->core.layout.stage.h;
+    const float before = size_of_ear(s), height = s->editor->core.view.layout.stage.h;
     session_hold(s, 'F', ACTION_PRESS);
     session_key(s, KEY_UP, 0);
     session_hold(s, 'F', ACTION_RELEASE);
@@ -229,7 +229,7 @@ SESSION_TEST(test_f_frames_the_selection_and_still_holds_frequency, open_written
     session_key(s, 'F', 0);
     assert_true(size_of_ear(s) > 0.3f * height);
     const float framed = size_of_ear(s);
-    session_move(s, 2, s->editor->core.layout.plot.y + 20);
+    session_move(s, 2, s->editor->core.view.layout.plot.y + 20);
     session_key(s, KEY_HOME, MOD_SHIFT);
     session_key(s, 'F', 0); // not over the curves
     assert_true(size_of_ear(s) < 0.5f * framed);
@@ -244,14 +244,15 @@ SESSION_TEST(test_the_wheel_zooms_to_the_pointer, open_written(s, write_rig))
         session_wheel(s, i == 0 ? 8 : -5);
         between(s, "foot", "leg", 0, xy);
         assert_true(i == 0 ? size_of_ear(s) > 2 * before : size_of_ear(s) < 0.6f * before);
-        assert_true(hypotf(xy[0] - s->x, xy[1] - s->y) < 0.03f * s->editor->core.layout.stage.h);
+        assert_true(hypotf(xy[0] - s->x, xy[1] - s->y) < 0.03f * s->editor->core.view.layout.stage.h);
     }
 }
 
 /// Its eight targets are never seen at once: it is at most 3 m wide.
 SESSION_TEST(test_a_model_of_morphs_fills_the_view, open_written(s, write_runner))
 {
-    const struct rect figure = stage_figure(s->editor->stage, &s->editor->core), stage = s->editor->core.layout.stage;
+    const struct rect figure = stage_figure(s->editor->stage, &s->editor->core),
+                      stage = s->editor->core.view.layout.stage;
     const struct stage_model *model = &s->editor->stage->view.models[0];
     assert_true(model->hi[0] - model->lo[0] < 3);
     assert_true(figure.w > 0.5f * stage.w || figure.h > 0.5f * stage.h);

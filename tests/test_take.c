@@ -15,7 +15,7 @@ static void open_file(struct session *s, const char *path)
     s->document->folder = need_text("assets/scenes");
     assert_done(models_update(s->work.models, s->document, &error));
     editor_open(s->editor, &s->world);
-    if (s->editor->core.playback.playing) session_key(s, KEY_SPACE, 0);
+    if (s->editor->core.view.playback.playing) session_key(s, KEY_SPACE, 0);
     session_move(s, 2, 2);
     session_frame(s);
 }
@@ -101,7 +101,7 @@ SESSION_TEST(k_shows_the_curves_as_they_were, open_dog(s))
 static int count_marks(const struct session *s)
 {
     const struct drawlist *list = &s->editor->core.list;
-    const float left = s->editor->core.layout.inspector.x;
+    const float left = s->editor->core.view.layout.inspector.x;
     int count = 0;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];

@@ -48,7 +48,7 @@ static void assert_remedied(struct session *s, const char *scene, enum warning_k
     const char *original = session_saved(s);
     session_point(s, "warning(0)");
     session_frame(s);
-    assert_ptr_equal(s->editor->core.hover.thing, &thing_warning);
+    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_warning);
     for (int i = 0; i < 90; i++) session_frame(s);
     assert_false(tooltip_is_shown(&s->editor->tooltip)); // it would cover what the warning says
     session_click(s, "warning(0)");
@@ -151,7 +151,7 @@ TEST(test_poses_on_a_curve_force_nothing)
     session_open(&s, FORCED);
     session_click(&s, "warning(0)");
     for (int frame = 6; frame < 120; frame += 24) {
-        s.editor->core.playback.position = frame;
+        s.editor->core.view.playback.position = frame;
         session_key(&s, 'I', MOD_SHIFT);
     }
     assert_int_equal(s.document->splines[0]->knot_count, 8);

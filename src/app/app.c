@@ -49,7 +49,7 @@ void workspace_solve(struct workspace *work, struct frame_row *row)
     struct evaluation *evaluation = &work->evaluation;
     row->edited = !evaluation_is_of(evaluation, work->document);
     evaluation->models = models_source(work->models);
-    evaluation_update(evaluation, work->document, work->editor->core.look == LOOK_CUBIC);
+    evaluation_update(evaluation, work->document, work->editor->core.view.look == LOOK_CUBIC);
     row->solver = evaluation_solver(evaluation);
     row->splines_solved = evaluation->solved_splines;
     row->samples = evaluation->solved_samples;
@@ -103,7 +103,7 @@ static bool has_room(const struct app *app, double scale)
 
 static double wanted_scale(const struct app *app, double chosen)
 {
-    return chosen * (app->work.editor->core.presenter.on ? PRESENTING : 1);
+    return chosen * (app->work.editor->core.view.presenter.on ? PRESENTING : 1);
 }
 
 /// The chosen scale, or the largest step below it that fits. A window too small for any keeps its scale.
@@ -122,7 +122,7 @@ void ui_scale_fit(struct app *app)
     const float shown = (float)app->ui_scale_shown;
     editor_resize(app->work.editor, fmaxf(app->display.width / shown, UI_LEAST_WIDTH),
                   fmaxf(app->display.height / shown, UI_LEAST_HEIGHT), app->display.scale * shown);
-    app->work.editor->core.ui_scale = app->ui_scale;
+    app->work.editor->core.view.ui_scale = app->ui_scale;
 }
 
 /// Call when presenting has started or ended.
@@ -553,8 +553,8 @@ void app_open_editor(struct app *app)
 {
     editor_destroy(app->work.editor);
     app->work.editor = editor_create();
-    app->work.editor->core.in_page = platform_in_page();
-    app->work.editor->core.still = app->options->still;
+    app->work.editor->core.view.in_page = platform_in_page();
+    app->work.editor->core.view.still = app->options->still;
     app->work.evaluation.solver = app->options->solver;
     app_connect_files(app);
     ui_scale_fit(app);

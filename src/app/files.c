@@ -261,7 +261,8 @@ void app_show_title(struct app *app)
     for (int r = 0; r < rigs && r < NAMED; r++) append(text, r ? ", " : "", rig_title(document->rigs[r]));
     append(text, end_of_names(rigs), ". Splines: ");
     for (int s = 0; s < splines && s < NAMED; s++) append(text, s ? ", " : "", document->splines[s]->name);
-    append(text, end_of_names(splines), app->work.editor->core.playback.playing ? ". It plays." : ". It is paused.");
+    append(text, end_of_names(splines),
+           app->work.editor->core.view.playback.playing ? ". It plays." : ". It is paused.");
     const uint64_t hash = hash_bytes(HASH_START, text, strlen(text));
     if (hash != app->described) platform_describe(app->platform, text);
     app->described = hash;
@@ -485,7 +486,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_ADD: {
         editor_let_go(app->work.editor);
         core_step(core, "Add character", 0);
-        const bool added = import_add(app->work.document, request->path, core->active, error);
+        const bool added = import_add(app->work.document, request->path, core->focus.active, error);
         if (!added) history_restart(app->work.history);
         editor_refresh(app->work.editor);
         if (added) editor_show_last(app->work.editor);

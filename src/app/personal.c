@@ -80,13 +80,13 @@ static void store_settings(struct app *app, struct settings *settings)
 
 static struct choices choices_of(const struct app *app)
 {
-    const struct layout *layout = &app->work.editor->core.layout;
+    const struct layout *layout = &app->work.editor->core.view.layout;
     return (struct choices){.theme = theme_in_use(),
                             .ui_scale = app->ui_scale,
                             .stage_share = (double)layout->stage_share,
                             .inspector_width = (double)layout->inspector_width,
-                            .more = app->work.editor->core.more,
-                            .keep = app->work.editor->core.keep,
+                            .more = app->work.editor->core.view.more,
+                            .keep = app->work.editor->core.step.keep,
                             .is_welcomed = !dialogs_is_welcoming(app->work.editor->dialogs)};
 }
 
@@ -129,13 +129,13 @@ static void start_settings(struct app *app)
     const char *name = settings_get(settings, "theme");
     const int kind = name ? theme_find(name) : -1;
     if (kind >= 0 && !app->options->theme) theme_use((enum theme_kind)kind);
-    core_set_panels(core, settings_number(settings, "stage_share", (double)core->layout.stage_share),
-                    settings_number(settings, "inspector_width", (double)core->layout.inspector_width));
+    core_set_panels(core, settings_number(settings, "stage_share", (double)core->view.layout.stage_share),
+                    settings_number(settings, "inspector_width", (double)core->view.layout.inspector_width));
     const double scale = settings_number(settings, "ui_scale", app->ui_scale);
     if (!(app->options->ui_scale > 0)) app->ui_scale = fmin(fmax(scale, UI_SCALE_LEAST), UI_SCALE_MOST);
     ui_scale_fit(app);
-    core->more = settings_flag(settings, "more", false);
-    core->keep = settings_flag(settings, "keep", true);
+    core->view.more = settings_flag(settings, "more", false);
+    core->step.keep = settings_flag(settings, "keep", true);
     if (!settings_flag(settings, "welcomed", false)) dialogs_welcome(app->work.editor->dialogs);
     personal->choices = choices_of(app);
     export_memory_read(settings, app_path(app), &memory);

@@ -26,7 +26,7 @@ enum show {
 
 static void run_show(struct editor *e, int what)
 {
-    const bool on_stage = core_panel_at(&e->core, e->core.pointer_x, e->core.pointer_y) == PANEL_STAGE;
+    const bool on_stage = core_panel_at(&e->core, e->core.input.pointer_x, e->core.input.pointer_y) == PANEL_STAGE;
     if (what == SHOW_HELP) dialogs_help(e->dialogs, &e->core);
     if (what == SHOW_PALETTE) dialogs_palette(e->dialogs);
     if (what == SHOW_ALL && !on_stage) curves_frame_all(e->curves, &e->core);
@@ -45,18 +45,18 @@ static void run_insert(struct editor *e, int argument)
 static void run_select_none(struct editor *e, int argument)
 {
     (void)argument;
-    if (e->core.brush.on) {
+    if (e->core.focus.brush.on) {
         characters_set_brush(&e->core, false);
-    } else if (e->core.pick.use != BONE_SELECTED) {
-        e->core.pick = (struct bone_pick){0};
-    } else if (e->core.presenter.on) {
+    } else if (e->core.focus.pick.use != BONE_SELECTED) {
+        e->core.focus.pick = (struct bone_pick){0};
+    } else if (e->core.view.presenter.on) {
         presenter_toggle(&e->core, 0);
-    } else if (e->core.bone.any) {
+    } else if (e->core.focus.bone.any) {
         bones_clear(&e->core);
     } else if (pins_any_selected(&e->core)) {
         pins_clear(&e->core);
     } else {
-        selection_clear(&e->core.selection);
+        selection_clear(&e->core.focus.selection);
     }
 }
 
@@ -84,8 +84,8 @@ static void run_clipboard(struct editor *e, int argument)
 static void run_brush(struct editor *e, int argument)
 {
     (void)argument;
-    characters_set_brush(&e->core, !e->core.brush.on);
-    if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
+    characters_set_brush(&e->core, !e->core.focus.brush.on);
+    if (e->core.focus.brush.on) inspector_unfold(e->inspector, "section.character");
 }
 
 enum way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
@@ -98,13 +98,13 @@ static const int way_sign[][2] = {
 
 static void run_pan(struct editor *editor, int way)
 {
-    const struct rect *plot = &editor->core.layout.plot;
+    const struct rect *plot = &editor->core.view.layout.plot;
     curves_pan(editor->curves, &editor->core, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
 }
 
 static void run_zoom(struct editor *editor, int direction)
 {
-    const struct rect *plot = &editor->core.layout.plot;
+    const struct rect *plot = &editor->core.view.layout.plot;
     double factor = direction > 0 ? ZOOM : 1 / ZOOM;
     curves_zoom(editor->curves, &editor->core, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
 }
@@ -122,7 +122,7 @@ static void run_approach(struct editor *editor, int direction)
 /// One frame or 1 % of the visible values; a pin, 1 % of the view. Shift: ten times, Ctrl: a tenth.
 static void run_nudge(struct editor *editor, int way)
 {
-    const unsigned mods = editor->core.mods;
+    const unsigned mods = editor->core.input.mods;
     const double size = mods & MOD_SHIFT ? 10 : mods & MOD_CTRL ? 0.1 : 1;
     const double across = size * way_sign[way][0], up = -size * way_sign[way][1];
     if (pins_any_selected(&editor->core)) {
@@ -145,9 +145,10 @@ static void change_list(struct core *core, int change)
     if (change == LIST_ADD) spline_list_add(core);
     if (change == LIST_COPY) spline_list_copy(core);
     if (change == LIST_REMOVE) spline_list_remove(core);
-    if (change == LIST_SOLO) spline_list_flip(core, &core->solo, core->active);
-    if (change == LIST_HIDE) spline_list_flip(core, &core->hidden, core->active);
-    if (change >= LIST_UP) spline_list_move(core, core->active, core->active + (change == LIST_UP ? -1 : 1));
+    if (change == LIST_SOLO) spline_list_flip(core, &core->view.solo, core->focus.active);
+    if (change == LIST_HIDE) spline_list_flip(core, &core->view.hidden, core->focus.active);
+    if (change >= LIST_UP)
+        spline_list_move(core, core->focus.active, core->focus.active + (change == LIST_UP ? -1 : 1));
 }
 
 /// The first of the sizes clearly above the present one, then the smallest again.
@@ -161,7 +162,8 @@ static double next_size(const double sizes[3], double present)
 static void run_panel(struct editor *editor, int inspector)
 {
     static const double shares[3] = {0.35, 0.575, 0.75}, widths[3] = {280, 360, 440};
-    double share = (double)editor->core.layout.stage_share, width = (double)editor->core.layout.inspector_width;
+    double share = (double)editor->core.view.layout.stage_share,
+           width = (double)editor->core.view.layout.inspector_width;
     if (inspector) {
         width = next_size(widths, width);
     } else {
@@ -470,7 +472,7 @@ void command_run(struct editor *editor, const struct command *command)
     const bool pins = command->when & PINS && pins_any_selected(&editor->core);
     if (pins) pins_select_neighbour(core, argument);
     const struct knot *knot = command->knot && !pins ? command->knot(core, argument) : NULL;
-    if (knot) curves_reveal(editor->curves, core, knot->frame, core_knot_value(core, core->active, knot));
+    if (knot) curves_reveal(editor->curves, core, knot->frame, core_knot_value(core, core->focus.active, knot));
 }
 
 // --- the keyboard: the command of a key or character, and keys that act while they are held
@@ -517,27 +519,27 @@ bool keys_event(struct editor *editor, const struct event *event)
     // Space plays on release, unless it panned.
     if (event->key == KEY_SPACE && (mods == 0 || event->action == ACTION_RELEASE)) {
         if (event->action == ACTION_PRESS) {
-            core->space_down = true;
-            core->space_used = false;
-        } else if (event->action == ACTION_RELEASE && core->space_down) {
-            core->space_down = false;
-            if (!core->space_used) playback_toggle(core);
+            core->input.space_down = true;
+            core->input.space_used = false;
+        } else if (event->action == ACTION_RELEASE && core->input.space_down) {
+            core->input.space_down = false;
+            if (!core->input.space_used) playback_toggle(core);
         }
         return true;
     }
 
     if (event->action == ACTION_RELEASE) {
-        if (event->key != core->held_key) return false;
-        core->held_key = 0;
-        const bool on_stage = core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_STAGE;
-        return !core->held_used && on_stage && keys_run(editor, event->key, 0, false); // F alone
+        if (event->key != core->input.held_key) return false;
+        core->input.held_key = 0;
+        const bool on_stage = core_panel_at(core, core->input.pointer_x, core->input.pointer_y) == PANEL_STAGE;
+        return !core->input.held_used && on_stage && keys_run(editor, event->key, 0, false); // F alone
     }
 
     const bool is_held = event->key == 'L' || event->key == 'K' || parameter_of_letter(event->key) != PARAMETER_COUNT;
     const bool holds = mods == 0 && is_held;
     if (holds && event->action == ACTION_PRESS) {
-        core->held_key = event->key;
-        core->held_used = false;
+        core->input.held_key = event->key;
+        core->input.held_used = false;
         if (event->key == 'K') take_explain(core);
     }
     const bool bound = !holds && keys_run(editor, event->key, mods, event->action == ACTION_REPEAT);

@@ -27,14 +27,14 @@ struct editor *editor_create(void)
     editor->stage = stage_create(&editor->core);
     editor->inspector = inspector_create(&editor->core);
     editor->dialogs = dialogs_create(commands, command_count);
-    editor->core.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
-    editor->core.layout.inspector_width = THEME_INSPECTOR_WIDTH;
-    editor->core.visible = 2;
-    editor->core.active = -1;
-    editor->core.ui_scale = 1;
-    editor->core.brush = (struct brush){.radius = 0.12, .strength = 0.4};
-    editor->core.overlays.ghost = true;
-    editor->core.keep = true;
+    editor->core.view.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
+    editor->core.view.layout.inspector_width = THEME_INSPECTOR_WIDTH;
+    editor->core.view.visible = 2;
+    editor->core.focus.active = -1;
+    editor->core.view.ui_scale = 1;
+    editor->core.focus.brush = (struct brush){.radius = 0.12, .strength = 0.4};
+    editor->core.view.overlays.ghost = true;
+    editor->core.step.keep = true;
     editor_resize(editor, 1280, 720, 1);
     return editor;
 }
@@ -48,24 +48,24 @@ void editor_destroy(struct editor *editor)
     dialogs_destroy(editor->dialogs);
     drawlist_destroy(&editor->core.list);
     take_keep(&editor->core, false);
-    free(editor->core.selection.bits);
-    free(editor->core.hidden.bits);
-    free(editor->core.solo.bits);
+    free(editor->core.focus.selection.bits);
+    free(editor->core.view.hidden.bits);
+    free(editor->core.view.solo.bits);
     free(editor->core.clipboard);
-    free(editor->core.originals.list);
-    free(editor->core.pressed.list);
+    free(editor->core.step.originals.list);
+    free(editor->core.step.pressed.list);
     free(editor);
 }
 
 void editor_resize(struct editor *editor, float width, float height, float scale)
 {
-    editor->core.layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
-    const float before = editor->core.scale, now = scale > 0 ? scale : 1;
+    editor->core.view.layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
+    const float before = editor->core.view.scale, now = scale > 0 ? scale : 1;
     if (before > 0) { // the scene keeps its place under the pointer
-        editor->core.pointer_x *= before / now;
-        editor->core.pointer_y *= before / now;
+        editor->core.input.pointer_x *= before / now;
+        editor->core.input.pointer_y *= before / now;
     }
-    editor->core.scale = now;
+    editor->core.view.scale = now;
     core_layout(&editor->core);
 }
 
@@ -76,8 +76,8 @@ static void open_panels(struct editor *editor)
     curves_open(editor->curves);
     stage_open(editor->stage);
     inspector_reset(editor->inspector);
-    inspector_show_spline(editor->inspector, editor->core.active);
-    editor->seen.active = editor->core.active_id;
+    inspector_show_spline(editor->inspector, editor->core.focus.active);
+    editor->seen.active = editor->core.focus.active_id;
 }
 
 void editor_open(struct editor *editor, const struct editor_world *world)
@@ -97,12 +97,12 @@ static void end_event(struct editor *editor)
     core_close(core);
     if (editor->seen.serial != core->serial) open_panels(editor);
     inspector_show_clicked(editor->inspector);
-    if (editor->seen.active == core->active_id) return;
+    if (editor->seen.active == core->focus.active_id) return;
     const int before = document_find_spline_id(editor->core.document, editor->seen.active);
-    editor->seen.active = core->active_id;
-    if (core->active < 0) return;
+    editor->seen.active = core->focus.active_id;
+    if (core->focus.active < 0) return;
     if (before >= 0) curves_activate(editor->curves, core, before);
-    inspector_show_spline(editor->inspector, core->active);
+    inspector_show_spline(editor->inspector, core->focus.active);
 }
 
 void editor_show_poles(struct editor *editor) { inspector_unfold(editor->inspector, "section.poles"); }
@@ -122,9 +122,9 @@ void editor_answer(struct editor *editor, const struct request *request, bool ok
 
 bool editor_wants_frames(const struct editor *editor)
 {
-    const struct drag_owner *dragged = editor->core.drag.owner;
-    return editor->core.playback.playing || (dragged && dragged->goes_on) || stage_is_moving(editor->stage) ||
-           editor->core.message.seconds_left > 0 || editor->core.unshown || editor->core.nudged_seconds > 0 ||
+    const struct drag_owner *dragged = editor->core.input.drag.owner;
+    return editor->core.view.playback.playing || (dragged && dragged->goes_on) || stage_is_moving(editor->stage) ||
+           editor->core.message.seconds_left > 0 || editor->core.unshown || editor->core.step.nudged_seconds > 0 ||
            presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs, &editor->core) ||
            curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip);
 }
@@ -146,7 +146,7 @@ void editor_refresh(struct editor *editor)
 void editor_show_last(struct editor *editor)
 {
     inspector_show_rig(editor->inspector, editor->core.document->rig_count - 1);
-    editor->core.refit_stage = true;
+    editor->core.view.refit_stage = true;
 }
 
 // --- events
@@ -162,7 +162,8 @@ static const struct drag_owner divider_drags[] = {
 static void move_divider(void *room, struct core *core)
 {
     (void)room;
-    core_divider_move(core, (enum divider)(core->drag.owner - divider_drags), core->drag.x, core->drag.y);
+    core_divider_move(core, (enum divider)(core->input.drag.owner - divider_drags), core->input.drag.x,
+                      core->input.drag.y);
 }
 
 static void editor_press(struct editor *editor, const struct event *event)
@@ -234,11 +235,11 @@ void editor_event(struct editor *editor, const struct event *event)
     const bool is_key = event->kind == EVENT_KEY, is_button = event->kind == EVENT_BUTTON;
     const bool has_pointer = event->kind == EVENT_POINTER || is_button || event->kind == EVENT_WHEEL;
     if (has_pointer) {
-        core->pointer_x = event->x;
-        core->pointer_y = event->y;
-        core->finger = event->finger;
+        core->input.pointer_x = event->x;
+        core->input.pointer_y = event->y;
+        core->input.finger = event->finger;
     }
-    if (has_pointer || is_key) core->mods = event->mods;
+    if (has_pointer || is_key) core->input.mods = event->mods;
     if ((is_key || is_button) && event->action == ACTION_PRESS && core->message.is_error)
         core->message = (struct message){.text = ""};
     if (((is_key || is_button) && event->action != ACTION_RELEASE) || event->kind == EVENT_TEXT ||
@@ -250,7 +251,7 @@ void editor_event(struct editor *editor, const struct event *event)
     bool used = (!dialogs_are_asking(editor->dialogs) && keys_first(editor, event)) ||
                 dialogs_event(editor->dialogs, core, event) || drag_event(core, event) ||
                 (!inspector_ui(editor->inspector)->typing && presenter_event(core, event)) ||
-                (!core->drag.owner && inspector_event(editor->inspector, event));
+                (!core->input.drag.owner && inspector_event(editor->inspector, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
@@ -263,8 +264,8 @@ void editor_event(struct editor *editor, const struct event *event)
     if (dialogs_ask(editor->dialogs, core)) inspector_let_go(editor->inspector);
     if (!dialogs_cover(editor->dialogs)) return;
     drag_end(core, true);
-    core->held_key = 0;
-    core->space_down = false;
+    core->input.held_key = 0;
+    core->input.space_down = false;
 }
 
 void editor_advance(struct editor *editor, double dt)
@@ -280,7 +281,7 @@ void editor_advance(struct editor *editor, double dt)
     }
     presenter_advance(&editor->core, dt, busy);
     dialogs_advance(editor->dialogs, &editor->core, dt);
-    editor->core.nudged_seconds = fmax(editor->core.nudged_seconds - dt, 0);
+    editor->core.step.nudged_seconds = fmax(editor->core.step.nudged_seconds - dt, 0);
     transport_advance(&editor->core, dt);
     tooltip_advance(&editor->tooltip, dt);
     playback_advance(&editor->core, dt);
@@ -298,17 +299,17 @@ void editor_pose(struct editor *editor)
         curves_frame_all(editor->curves, &editor->core);
         stage_fit(editor->stage, &editor->core);
     }
-    if (editor->core.refit_curves) curves_frame_all(editor->curves, &editor->core);
-    editor->core.refit_curves = false;
+    if (editor->core.view.refit_curves) curves_frame_all(editor->curves, &editor->core);
+    editor->core.view.refit_curves = false;
     follow_edits(editor->curves, &editor->core);
     stage_pose(editor->stage, &editor->core, dialogs_cover(editor->dialogs));
 }
 
 void editor_pose_alone(struct editor *editor, double frame, float width, float height)
 {
-    editor->core.layout.stage = (struct rect){0, 0, width, height};
-    editor->core.plain = true;
-    editor->core.playback.position = core_position(editor->core.document, frame);
+    editor->core.view.layout.stage = (struct rect){0, 0, width, height};
+    editor->core.view.plain = true;
+    editor->core.view.playback.position = core_position(editor->core.document, frame);
     editor_pose(editor);
 }
 
@@ -316,16 +317,17 @@ static void show_divider(struct editor *editor, enum divider divider)
 {
     enum { LENGTH = 36, THICKNESS = 3 };
     struct core *core = &editor->core;
-    const struct rect *curves = &core->layout.curves, *inspector = &core->layout.inspector;
-    const bool across = divider != DIVIDER_INSPECTOR, held = core->drag.owner == &divider_drags[divider];
-    const bool hot = !core->drag.owner && core_divider_at(core, core->pointer_x, core->pointer_y) == divider;
+    const struct rect *curves = &core->view.layout.curves, *inspector = &core->view.layout.inspector;
+    const bool across = divider != DIVIDER_INSPECTOR, held = core->input.drag.owner == &divider_drags[divider];
+    const bool hot =
+        !core->input.drag.owner && core_divider_at(core, core->input.pointer_x, core->input.pointer_y) == divider;
     const float y = divider == DIVIDER_STAGE ? curves->y : inspector->y;
     const struct rect line =
         across ? (struct rect){0, y, curves->w, 1} : (struct rect){inspector->x, 0, 1, inspector->h};
     const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
     const struct rect grip = {roundf(line.x + (line.w - w) / 2), roundf(line.y + (line.h - h) / 2), w, h};
     drawlist_rect(&core->list, line, theme()->border);
-    if (!core->presenter.on)
+    if (!core->view.presenter.on)
         drawlist_rounded(&core->list, grip, THICKNESS / 2.0f,
                          held  ? theme()->accent
                          : hot ? theme()->text
@@ -341,10 +343,10 @@ static const char *hint_of(const struct editor *editor)
         [BONE_LAST] = "Click the last bone of the chain; Esc cancels",
     };
     const struct core *core = &editor->core;
-    const struct hover *hover = &core->hover;
+    const struct hover *hover = &core->input.hover;
     const char *widget = inspector_ui(editor->inspector)->hint;
-    if (widget || core->drag.hint) return widget ? widget : core->drag.hint;
-    if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
+    if (widget || core->input.drag.hint) return widget ? widget : core->input.drag.hint;
+    if (core->focus.pick.use != BONE_SELECTED) return picks[core->focus.pick.use];
     return hover->hint ? hover->hint : hover->thing ? hover->thing->hint : NULL;
 }
 
@@ -352,18 +354,18 @@ void editor_show(struct editor *editor)
 {
     struct core *core = &editor->core;
     const bool covered = dialogs_cover(editor->dialogs);
-    const float x = core->pointer_x, y = core->pointer_y;
-    drawlist_clear(&core->list, core->layout.window);
+    const float x = core->input.pointer_x, y = core->input.pointer_y;
+    drawlist_clear(&core->list, core->view.layout.window);
 
     // Anew in every frame, because things move under the pointer.
     editor->status.pointer_x = -1;
     editor->status.hint = NULL;
-    if (!core->drag.owner) {
+    if (!core->input.drag.owner) {
         const bool is_beside = covered || core_divider_at(core, x, y) != DIVIDER_NONE;
         const enum panel panel = is_beside ? PANEL_NONE : core_panel_at(core, x, y);
-        core->hover = (struct hover){.thing = NULL};
-        if (panel == PANEL_CURVES) core->hover = curves_hover(editor->curves, core, x, y);
-        if (panel == PANEL_STAGE) core->hover = stage_hover(editor->stage, core, x, y);
+        core->input.hover = (struct hover){.thing = NULL};
+        if (panel == PANEL_CURVES) core->input.hover = curves_hover(editor->curves, core, x, y);
+        if (panel == PANEL_STAGE) core->input.hover = stage_hover(editor->stage, core, x, y);
         if (panel == PANEL_STATUS) editor->status.pointer_x = x, editor->status.pointer_y = y;
     }
 
@@ -372,12 +374,12 @@ void editor_show(struct editor *editor)
     stage_show_caption(core, dialogs_bottom(editor->dialogs, core));
 
     // While presenting, only the panels that have not slid away.
-    const struct presenter *presenter = &core->presenter;
+    const struct presenter *presenter = &core->view.presenter;
     const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
     if (below) curves_show(editor->curves, core);
     if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
     if (side) inspector_show(editor->inspector, covered);
-    if (side) show_divider(editor, core->layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
+    if (side) show_divider(editor, core->view.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
     if (below) transport_show(&editor->status, core, hint_of(editor));
 
     dialogs_show_input(editor->dialogs, core);
@@ -386,14 +388,14 @@ void editor_show(struct editor *editor)
     // The tooltip is for the control under the pointer, else for the focused one.
     const struct rect cursor = {x, y - 4, 14, 22};
     const struct ui *ui = inspector_ui(editor->inspector);
-    const struct thing *thing = core->hover.thing;
+    const struct thing *thing = core->input.hover.thing;
     const char *control = thing && thing->is_control ? thing->hint : editor->status.hint;
     const char *text = ui->hint ? ui->hint : control;
     const bool is_focus = !text && ui->focus;
     if (is_focus) text = ui->focus_hint;
-    if (covered || core->drag.owner) text = NULL;
+    if (covered || core->input.drag.owner) text = NULL;
     tooltip_offer(&editor->tooltip, text, x, y, is_focus ? ui->focus_rect : cursor);
-    tooltip_show(&editor->tooltip, core->layout.window, &core->list);
+    tooltip_show(&editor->tooltip, core->view.layout.window, &core->list);
     core->unshown = false;
 }
 
@@ -403,20 +405,20 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
     enum ui_over over;
     if (dialogs_over(editor->dialogs, &over)) return of_widget[over];
-    if (editor->core.drag.owner) return editor->core.drag.owner->cursor;
-    enum divider divider = core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
+    if (editor->core.input.drag.owner) return editor->core.input.drag.owner->cursor;
+    enum divider divider = core_divider_at(&editor->core, editor->core.input.pointer_x, editor->core.input.pointer_y);
     if (divider != DIVIDER_NONE) return divider_drags[divider].cursor;
     over = inspector_ui(editor->inspector)->over;
     if (over != UI_OVER_NOTHING) return of_widget[over];
     if (editor->status.hint) return CURSOR_HAND;
-    return editor->core.hover.thing ? editor->core.hover.thing->cursor : CURSOR_ARROW;
+    return editor->core.input.hover.thing ? editor->core.input.hover.thing->cursor : CURSOR_ARROW;
 }
 
 // --- names for places on the screen, as replays use them: "knot(sway,2)", "tail(tail,0.9)". They survive layout changes
 
 static bool find_divider(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const struct layout *l = &core->layout;
+    const struct layout *l = &core->view.layout;
     const bool inspector = strcmp(target->name, "inspector") == 0;
     (void)room;
     xy[0] = inspector ? l->inspector.x : l->curves.x + l->curves.w / 2;

@@ -20,11 +20,11 @@
 static int first_spline(struct core *core)
 {
     const struct document *document = core->document;
-    core->limb = 0;
+    core->focus.limb = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         for (int r = -1; (r = document_next_rig(document, (enum rig_kind)kind, r)) >= 0;) {
             if (rig_input_count(document->rigs[r]) == 0) continue;
-            core->limb = document->rigs[r]->id;
+            core->focus.limb = document->rigs[r]->id;
             return rig_input(document->rigs[r], 0);
         }
     }
@@ -35,44 +35,44 @@ void core_open(struct core *core)
 {
     const struct document *document = core->document;
     take_keep(core, false);
-    selection_clear(&core->selection);
-    selection_clear(&core->hidden);
-    selection_clear(&core->solo);
-    core->drag = (struct drag){0};
-    core->hover = (struct hover){0};
-    core->edited = (struct edited){0};
-    core->look = LOOK_WIGGLY;
-    core->brush.on = false;
-    core->bone.any = false;
-    core->pin.any = false;
-    core->pick = (struct bone_pick){0};
-    memset(core->recent, 0, sizeof core->recent);
-    core->active = first_spline(core);
-    core->active_id = core->active >= 0 ? document->splines[core->active]->id : 0;
-    core->held_key = 0;
-    core->space_down = false;
+    selection_clear(&core->focus.selection);
+    selection_clear(&core->view.hidden);
+    selection_clear(&core->view.solo);
+    core->input.drag = (struct drag){0};
+    core->input.hover = (struct hover){0};
+    core->step.edited = (struct edited){0};
+    core->view.look = LOOK_WIGGLY;
+    core->focus.brush.on = false;
+    core->focus.bone.any = false;
+    core->focus.pin.any = false;
+    core->focus.pick = (struct bone_pick){0};
+    memset(core->focus.recent, 0, sizeof core->focus.recent);
+    core->focus.active = first_spline(core);
+    core->focus.active_id = core->focus.active >= 0 ? document->splines[core->focus.active]->id : 0;
+    core->input.held_key = 0;
+    core->input.space_down = false;
     core->message = (struct message){0};
     core->serial = document->serial;
     core_set_path(core, document->path ? document->path : "");
 
     const struct character_rig *character = document_character(document, 0);
     const int phases = character ? character->phases : -1;
-    core->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
+    core->focus.characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
 
     // Scenes that loop, have a clip or a description play. Auto-key is on if a body is animated.
-    core->seen_first = document->first_frame;
-    core->seen_substeps = document->substeps;
-    core->playback = (struct playback){
+    core->view.seen_first = document->first_frame;
+    core->view.seen_substeps = document->substeps;
+    core->view.playback = (struct playback){
         .looping = true, .speed = 1, .playing = document->about != NULL, .range = {-INFINITY, INFINITY}};
     for (int s = 0; s < document->spline_count; s++)
-        core->playback.playing |= spline_start(document->splines[s]) == WIGGLY_LOOP;
-    core->auto_key = false;
+        core->view.playback.playing |= spline_start(document->splines[s]) == WIGGLY_LOOP;
+    core->step.auto_key = false;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
-        core->playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
-        for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) core->auto_key |= rig->tail.position[k].track >= 0;
+        core->view.playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
+        for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) core->step.auto_key |= rig->tail.position[k].track >= 0;
     }
-    if (core->still) core->playback.playing = false;
+    if (core->view.still) core->view.playback.playing = false;
 }
 
 static const double MESSAGE_SECONDS = 5;
@@ -85,7 +85,7 @@ void core_set_path(struct core *core, const char *path)
 
 void core_edited(struct core *core, int spline)
 {
-    struct edited *edited = &core->edited;
+    struct edited *edited = &core->step.edited;
     if (spline < 0) edited->selection = true;
     for (int i = 0; i < edited->count; i++) {
         if (edited->spline[i] == spline) return;
@@ -98,21 +98,21 @@ bool core_step(struct core *core, const char *label, uint64_t merge)
     core_close(core);
     if (history_is_open(core->history)) return false;
     history_begin(core->history, label, merge);
-    core->step_ends = true;
-    core->error = (struct error){0};
+    core->step.ends = true;
+    core->step.error = (struct error){0};
     core->message = (struct message){0};
 
     // The phases that core_keep_following() gives back.
     const struct document *document = core->document;
-    core->pressed.count = 0;
-    if (!core->keep || !evaluation_is_of(core->evaluation, document)) return true;
+    core->step.pressed.count = 0;
+    if (!core->step.keep || !evaluation_is_of(core->evaluation, document)) return true;
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
         for (int k = 0; k < spline->knot_count && spline_winds_up(document, s); k++) {
             struct knot knot = spline->knots[k];
             if (knot_holds(&knot) != HOLDS_VALUE) continue;
             knot.phase = evaluation_at(core->evaluation, s, document_sample(document, knot.frame)).im;
-            originals_add(&core->pressed, s, &knot);
+            originals_add(&core->step.pressed, s, &knot);
         }
     }
     return true;
@@ -120,9 +120,9 @@ bool core_step(struct core *core, const char *label, uint64_t merge)
 
 void core_close(struct core *core)
 {
-    if (!core->step_ends) return;
-    core->step_ends = false;
-    if (core->error.kind == ERROR_NONE) {
+    if (!core->step.ends) return;
+    core->step.ends = false;
+    if (core->step.error.kind == ERROR_NONE) {
         core_keep_following(core);
     } else {
         history_restart(core->history);
@@ -134,22 +134,22 @@ void core_close(struct core *core)
 void core_settle(struct core *core)
 {
     core_refresh(core);
-    if (core->error.kind == ERROR_NONE) return;
-    core_message(core, true, "%s", core->error.text);
-    core->error = (struct error){0};
-    selection_drop_from(&core->selection, core->document->next_id); // the knot the drag had inserted
+    if (core->step.error.kind == ERROR_NONE) return;
+    core_message(core, true, "%s", core->step.error.text);
+    core->step.error = (struct error){0};
+    selection_drop_from(&core->focus.selection, core->document->next_id); // the knot the drag had inserted
 }
 
 bool core_set_parameter(struct core *core, int spline, enum parameter parameter, double value)
 {
     const struct param param = param_number(value);
-    return edit_parameter(core->document, spline, parameter, &param, &core->error);
+    return edit_parameter(core->document, spline, parameter, &param, &core->step.error);
 }
 
 bool core_put_knot(struct core *core, int spline, const struct knot *knot)
 {
-    return knot->id == 0 ? edit_knot_insert(core->document, spline, knot, &core->error)
-                         : edit_knot_set(core->document, spline, knot, &core->error);
+    return knot->id == 0 ? edit_knot_insert(core->document, spline, knot, &core->step.error)
+                         : edit_knot_set(core->document, spline, knot, &core->step.error);
 }
 
 double core_parameter_at(const struct core *core, const struct spline *spline, enum parameter parameter, int sample)
@@ -179,36 +179,37 @@ void core_refresh(struct core *core)
     }
 
     const bool same = core->evaluation && core->evaluation->count == document->spline_count;
-    if (!same || !active || active->id != core->active_id) {
-        int found = document_find_spline_id(document, core->active_id);
+    if (!same || !active || active->id != core->focus.active_id) {
+        int found = document_find_spline_id(document, core->focus.active_id);
         if (found < 0) {
             const int last = document->spline_count - 1;
-            found = core->active > last ? last : core->active < 0 && last >= 0 ? 0 : core->active;
-            core->active_id = found >= 0 ? document->splines[found]->id : 0;
-            selection_clear(&core->selection);
+            found = core->focus.active > last ? last : core->focus.active < 0 && last >= 0 ? 0 : core->focus.active;
+            core->focus.active_id = found >= 0 ? document->splines[found]->id : 0;
+            selection_clear(&core->focus.selection);
         }
-        core->active = found;
-        core->hover = (struct hover){0};
+        core->focus.active = found;
+        core->input.hover = (struct hover){0};
     }
 
-    const double frame = core->seen_first + core->playback.position / core->seen_substeps;
-    const bool moved = core->seen_first != document->first_frame || core->seen_substeps != document->substeps;
-    if (moved) core->playback.position = (frame - document->first_frame) * document->substeps;
-    core->playback.position = fmax(0, fmin(core->playback.position, document_samples(document) - 1));
-    core->seen_first = document->first_frame;
-    core->seen_substeps = document->substeps;
-    core->pick = (struct bone_pick){0};
+    const double frame = core->view.seen_first + core->view.playback.position / core->view.seen_substeps;
+    const bool moved =
+        core->view.seen_first != document->first_frame || core->view.seen_substeps != document->substeps;
+    if (moved) core->view.playback.position = (frame - document->first_frame) * document->substeps;
+    core->view.playback.position = fmax(0, fmin(core->view.playback.position, document_samples(document) - 1));
+    core->view.seen_first = document->first_frame;
+    core->view.seen_substeps = document->substeps;
+    core->focus.pick = (struct bone_pick){0};
 }
 
 /// If undo removed the active spline, the previously active one becomes active.
 static void return_to_active(struct core *core)
 {
     const struct document *document = core->document;
-    const bool gone = document_find_spline_id(document, core->active_id) < 0;
+    const bool gone = document_find_spline_id(document, core->focus.active_id) < 0;
     for (int r = 0; r < CORE_MAX_RECENT && gone; r++) {
-        if (core->recent[r] == 0 || document_find_spline_id(document, core->recent[r]) < 0) continue;
-        core->active_id = core->recent[r];
-        selection_clear(&core->selection);
+        if (core->focus.recent[r] == 0 || document_find_spline_id(document, core->focus.recent[r]) < 0) continue;
+        core->focus.active_id = core->focus.recent[r];
+        selection_clear(&core->focus.selection);
         break;
     }
     core_refresh(core);
@@ -300,29 +301,29 @@ void core_stopped(struct core *core, const char *why)
 
 struct spline *core_active_spline(const struct core *core)
 {
-    bool exists = core->active >= 0 && core->active < core->document->spline_count;
-    return exists ? core->document->splines[core->active] : NULL;
+    bool exists = core->focus.active >= 0 && core->focus.active < core->document->spline_count;
+    return exists ? core->document->splines[core->focus.active] : NULL;
 }
 
 void core_turn_to(struct core *core, int spline)
 {
-    if (spline == core->active || spline < 0 || spline >= core->document->spline_count) return;
-    memmove(core->recent + 1, core->recent, (CORE_MAX_RECENT - 1) * sizeof *core->recent);
-    core->recent[0] = core->active_id;
-    core->active = spline;
-    core->active_id = core->document->splines[spline]->id;
+    if (spline == core->focus.active || spline < 0 || spline >= core->document->spline_count) return;
+    memmove(core->focus.recent + 1, core->focus.recent, (CORE_MAX_RECENT - 1) * sizeof *core->focus.recent);
+    core->focus.recent[0] = core->focus.active_id;
+    core->focus.active = spline;
+    core->focus.active_id = core->document->splines[spline]->id;
 }
 
 void core_activate(struct core *core, int spline)
 {
-    if (spline == core->active || spline < 0 || spline >= core->document->spline_count) return;
-    selection_clear(&core->selection);
+    if (spline == core->focus.active || spline < 0 || spline >= core->document->spline_count) return;
+    selection_clear(&core->focus.selection);
     core_turn_to(core, spline);
 }
 
 void core_choose(struct core *core, int spline)
 {
-    core->limb = 0;
+    core->focus.limb = 0;
     core_activate(core, spline);
 }
 
@@ -348,20 +349,21 @@ bool spline_list_shows(const struct core *core, int spline)
     if (spline < 0 || spline >= document->spline_count) return false;
     const unsigned id = document->splines[spline]->id;
     int solo = 0;
-    while (solo < document->spline_count && !selection_has(&core->solo, document->splines[solo]->id)) solo++;
-    return solo < document->spline_count ? selection_has(&core->solo, id) : !selection_has(&core->hidden, id);
+    while (solo < document->spline_count && !selection_has(&core->view.solo, document->splines[solo]->id)) solo++;
+    return solo < document->spline_count ? selection_has(&core->view.solo, id)
+                                         : !selection_has(&core->view.hidden, id);
 }
 
 void spline_list_flip(struct core *core, struct selection *set, int spline)
 {
     const unsigned id = core->document->splines[spline]->id;
     selection_set(set, id, !selection_has(set, id));
-    core->visibility++;
+    core->view.visibility++;
 }
 
 const struct spline *spline_list_seen(const struct core *core)
 {
-    return spline_list_shows(core, core->active) ? core_active_spline(core) : NULL;
+    return spline_list_shows(core, core->focus.active) ? core_active_spline(core) : NULL;
 }
 
 // --- the selected knots: one bit per id, so that lookups are cheap in drags of thousands
@@ -431,7 +433,7 @@ void selection_copy(struct selection *to, const struct selection *from)
 /// Hidden knots are not edited, except the active spline's.
 static bool is_edited(const struct core *core, int spline)
 {
-    return spline == core->active || spline_list_shows(core, spline);
+    return spline == core->focus.active || spline_list_shows(core, spline);
 }
 
 bool selected_next(const struct core *core, struct knot_place *at)
@@ -441,7 +443,7 @@ bool selected_next(const struct core *core, struct knot_place *at)
         const struct spline *spline = core->document->splines[at->spline];
         bool open = at->knot >= 0 || is_edited(core, at->spline);
         while (open && ++at->knot < spline->knot_count) {
-            if (selection_has(&core->selection, spline->knots[at->knot].id)) return true;
+            if (selection_has(&core->focus.selection, spline->knots[at->knot].id)) return true;
         }
     }
     return false;
@@ -457,7 +459,7 @@ int selected_count(const struct core *core)
 void selected_activate(struct core *core)
 {
     struct knot_place first = SELECTED_START;
-    if (selection_count(&core->selection, core_active_spline(core)) > 0) return;
+    if (selection_count(&core->focus.selection, core_active_spline(core)) > 0) return;
     if (selected_next(core, &first)) core_turn_to(core, first.spline);
 }
 
@@ -472,14 +474,14 @@ void originals_add(struct originals *originals, int spline, const struct knot *k
 
 void core_collect(struct core *core, bool later)
 {
-    struct originals *originals = &core->originals;
+    struct originals *originals = &core->step.originals;
     originals->count = 0;
     for (int s = 0; s < core->document->spline_count; s++) {
         const struct spline *spline = core->document->splines[s];
         bool begun = false;
         if (!is_edited(core, s)) continue;
         for (int k = 0; k < spline->knot_count; k++) {
-            bool selected = selection_has(&core->selection, spline->knots[k].id);
+            bool selected = selection_has(&core->focus.selection, spline->knots[k].id);
             begun |= selected;
             if (!selected && !(later && begun)) continue;
             originals_add(originals, s, &spline->knots[k]);
@@ -510,7 +512,7 @@ static const struct original *find_original(const struct originals *originals, c
 enum room originals_room(const struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE])
 {
     const struct document *document = core->document;
-    const struct originals *originals = &core->originals;
+    const struct originals *originals = &core->step.originals;
     enum room room = ROOM_FREE;
     double stopped = 0;
     for (int i = 0, before = 0; i < originals->count && room != ROOM_OUTSIDE; i++) {
@@ -534,7 +536,7 @@ enum room originals_room(const struct core *core, knot_rule *rule, const void *h
 
 bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE])
 {
-    const struct originals *originals = &core->originals;
+    const struct originals *originals = &core->step.originals;
     const struct original *list = originals->list;
     int pair = 1; // of a spline
     while (pair < originals->count && list[pair].spline != list[pair - 1].spline) pair++;
@@ -548,11 +550,11 @@ bool originals_put(struct core *core, knot_rule *rule, const void *how, char why
         const struct original *original = &list[at];
         struct knot knot = rule(how, original);
         if (reversed && first) {
-            done = edit_knot_remove(core->document, original->spline, knot.id, &core->error);
+            done = edit_knot_remove(core->document, original->spline, knot.id, &core->step.error);
         } else if (reversed || first == (knot.frame > original->knot.frame)) {
             core_hold(core->document->splines[original->spline], &knot, why);
-            done =
-                (reversed ? edit_knot_insert : edit_knot_set)(core->document, original->spline, &knot, &core->error);
+            done = (reversed ? edit_knot_insert : edit_knot_set)(core->document, original->spline, &knot,
+                                                                 &core->step.error);
         }
     }
     return done;
@@ -561,7 +563,7 @@ bool originals_put(struct core *core, knot_rule *rule, const void *how, char why
 uint64_t core_merge_key(const struct core *core, uint64_t kind)
 {
     uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
-    key = hash_bytes(key, &core->active, sizeof core->active);
+    key = hash_bytes(key, &core->focus.active, sizeof core->focus.active);
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         unsigned id = knot_at(core->document, at)->id;
         key = hash_bytes(key, &id, sizeof id);
@@ -577,7 +579,8 @@ uint64_t core_merge_key(const struct core *core, uint64_t kind)
 static const double *phase_of(const struct core *core, int old, const struct knot *knot)
 {
     const struct document *document = history_before(core->history);
-    const struct original *at = find_original(&core->pressed, document, old, document_sample(document, knot->frame));
+    const struct original *at =
+        find_original(&core->step.pressed, document, old, document_sample(document, knot->frame));
     return at && at->knot.id == knot->id ? &at->knot.phase : NULL;
 }
 
@@ -640,8 +643,8 @@ static void keep_spline(struct core *core, int old, int of)
 void core_keep_following(struct core *core)
 {
     const struct document *document = core->document, *before = history_before(core->history);
-    const bool swings = core->drag.owner && core->mods & MOD_ALT;
-    if (!core->keep || swings || core->pressed.count == 0) return;
+    const bool swings = core->input.drag.owner && core->input.mods & MOD_ALT;
+    if (!core->step.keep || swings || core->step.pressed.count == 0) return;
     for (int s = 0; s < document->spline_count; s++) {
         const int old = document_find_spline_id(before, document->splines[s]->id);
         if (old < 0 || before->splines[old] == document->splines[s] || !spline_winds_up(document, s)) continue;

@@ -12,11 +12,11 @@ void core_set_path(struct core *core, const char *path);
 /// Notes an edit of a spline, or of its selected knots if it is -1.
 void core_edited(struct core *core, int spline);
 /// Opens the undo step for the edits that follow, and clears the last message; `merge` as in history_begin(). The end of the event closes it.
-/// An edit that fails writes core->error, and all of the step is reverted. false while a drag's step is open, because others must not mix with it.
+/// An edit that fails writes core->step.error, and all of the step is reverted. false while a drag's step is open, because others must not mix with it.
 bool core_step(struct core *core, const char *label, uint64_t merge);
 /// Closes the step of this event, if any. The editor calls it; a drag's step stays open.
 void core_close(struct core *core);
-/// Call after edits in a drag: the editor follows the document, and core->error goes to the status line.
+/// Call after edits in a drag: the editor follows the document, and core->step.error goes to the status line.
 void core_settle(struct core *core);
 /// Call after edits in an open step: of each spline that winds up and whose knots have changed, the next free knot becomes a pose with the phase
 /// it had when the step began. So nothing changes beyond it. Not in a drag with Alt held, or if that is switched off.
@@ -105,7 +105,7 @@ enum room { ROOM_FREE, ROOM_OCCUPIED, ROOM_OUTSIDE };
 /// Whether the knots fit where a rule, which keeps or reverses their order, puts them: in range, on different frames, and off other knots.
 /// If not, `why` says "a knot would leave the range" or the like. The document must be as when they were collected.
 enum room originals_room(const struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE]);
-/// Moves the knots, which must fit. `why` says which one a limit holds, core->error why it failed. Edits.
+/// Moves the knots, which must fit. `why` says which one a limit holds, core->step.error why it failed. Edits.
 bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE]);
 
 /// A merge key for history_begin() that makes equal nudges of the same knots one undo step.

@@ -8,39 +8,39 @@
 static const float CLICK_REACH = 3; ///< pixels a click may move
 static const double FINE = 0.1;     ///< of the pointer's movement, with Shift
 
-bool drag_snaps(const struct core *core, unsigned mods) { return core->no_snap == !!(mods & MOD_CTRL); }
+bool drag_snaps(const struct core *core, unsigned mods) { return core->input.no_snap == !!(mods & MOD_CTRL); }
 
 void drag_begin(struct core *core, const struct drag_owner *owner, void *room, const char *label,
                 const struct event *event)
 {
-    core->drag = (struct drag){.owner = owner,
-                               .room = room,
-                               .label = label,
-                               .button = event->button,
-                               .x = event->x,
-                               .y = event->y,
-                               .start_x = event->x,
-                               .start_y = event->y,
-                               .snap = drag_snaps(core, event->mods)};
+    core->input.drag = (struct drag){.owner = owner,
+                                     .room = room,
+                                     .label = label,
+                                     .button = event->button,
+                                     .x = event->x,
+                                     .y = event->y,
+                                     .start_x = event->x,
+                                     .start_y = event->y,
+                                     .snap = drag_snaps(core, event->mods)};
 }
 
 void drag_start_moving(struct core *core)
 {
-    struct drag *drag = &core->drag;
+    struct drag *drag = &core->input.drag;
     if (drag->moved) return;
     drag->moved = true;
-    if (drag->label && core_step(core, drag->label, 0)) core->step_ends = false;
+    if (drag->label && core_step(core, drag->label, 0)) core->step.ends = false;
 }
 
 void drag_restart(const struct core *core)
 {
-    if (core->drag.moved && core->drag.label) history_restart(core->history);
+    if (core->input.drag.moved && core->input.drag.label) history_restart(core->history);
 }
 
 /// Adds up the pointer's movement. Below CLICK_REACH the press stays a click.
 static void move(struct core *core, const struct event *event)
 {
-    struct drag *drag = &core->drag;
+    struct drag *drag = &core->input.drag;
     float dx = event->x - drag->x, dy = event->y - drag->y;
     double fine = event->mods & MOD_SHIFT && drag->label ? FINE : 1;
     if (drag->moved && !drag->label) drag->moved_x = drag->moved_y = 0;
@@ -57,7 +57,7 @@ static void move(struct core *core, const struct event *event)
 
 bool drag_event(struct core *core, const struct event *event)
 {
-    struct drag *drag = &core->drag;
+    struct drag *drag = &core->input.drag;
     enum drag_answer answer = DRAG_PASSES;
     if (!drag->owner) return false;
     if (event->kind == EVENT_POINTER) {
@@ -76,13 +76,13 @@ bool drag_event(struct core *core, const struct event *event)
 
 void drag_apply(struct core *core, double dt)
 {
-    struct drag *drag = &core->drag;
+    struct drag *drag = &core->input.drag;
     const struct drag_owner *owner = drag->owner;
     if (!owner || !owner->apply || !drag->moved || !(drag->stale || owner->goes_on)) return;
     drag->stale = false;
     drag->dt = dt;
     if (!owner->goes_on) drag_restart(core);
-    core->error = (struct error){0};
+    core->step.error = (struct error){0};
     owner->apply(drag->room, core);
     if (history_is_open(core->history)) core_keep_following(core);
     if (history_is_open(core->history)) core_settle(core);
@@ -90,7 +90,7 @@ void drag_apply(struct core *core, double dt)
 
 void drag_end(struct core *core, bool keep)
 {
-    struct drag *drag = &core->drag;
+    struct drag *drag = &core->input.drag;
     if (!drag->owner) return;
     drag->stale = true; // Alt may have been pressed or let go since
     if (keep && !drag->owner->goes_on) drag_apply(core, 0);
@@ -98,8 +98,8 @@ void drag_end(struct core *core, bool keep)
     if (drag->moved && drag->label) {
         if (keep) core_keep_following(core);
         if (!keep) drag_restart(core);
-        if (!keep) selection_drop_from(&core->selection, core->document->next_id);
-        if (!keep && core->pin.id >= core->document->next_id) pins_clear(core);
+        if (!keep) selection_drop_from(&core->focus.selection, core->document->next_id);
+        if (!keep && core->focus.pin.id >= core->document->next_id) pins_clear(core);
         history_end(core->history);
         core_settle(core); // dragging a body may have added the first splines
     }
@@ -108,8 +108,8 @@ void drag_end(struct core *core, bool keep)
 
 void drag_show(const void *room, struct core *core)
 {
-    const struct drag_owner *owner = core->drag.owner;
-    if (owner && owner->show && core->drag.room == room) owner->show(core->drag.room, core);
+    const struct drag_owner *owner = core->input.drag.owner;
+    if (owner && owner->show && core->input.drag.room == room) owner->show(core->input.drag.room, core);
 }
 
 bool drag_lock(struct drag *drag, int key)
@@ -135,8 +135,8 @@ void drag_say_stopped(struct core *core, const char *why)
 {
     if (*why) {
         core_stopped(core, why);
-    } else if (core->drag.stopped) {
+    } else if (core->input.drag.stopped) {
         core->message.text[0] = 0;
     }
-    core->drag.stopped = *why;
+    core->input.drag.stopped = *why;
 }

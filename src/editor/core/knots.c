@@ -12,8 +12,8 @@
 static void select_only(struct core *core, unsigned id)
 {
     pins_clear(core);
-    selection_clear(&core->selection);
-    selection_set(&core->selection, id, true);
+    selection_clear(&core->focus.selection);
+    selection_set(&core->focus.selection, id, true);
 }
 
 /// Inserts and selects a knot, or selects the one at that sample.
@@ -24,7 +24,7 @@ static void insert_at(struct core *core, const struct knot *knot)
     int at = spline_find_knot(document, core_active_spline(core), sample);
     if (at < 0) {
         if (!core_step(core, knot->has_phase ? "Insert pose" : "Insert knot", 0)) return;
-        if (!core_put_knot(core, core->active, knot)) return;
+        if (!core_put_knot(core, core->focus.active, knot)) return;
         at = spline_find_knot(document, core_active_spline(core), sample);
     }
     if (at < 0) return;
@@ -63,7 +63,7 @@ void core_insert_on_curve(struct core *core, double frame, bool snap, enum holds
     struct knot knot = {
         .frame = knot_frame(core, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_phase = pose};
     const wiggly_value here =
-        evaluation_at(core->evaluation, core->active, document_sample(core->document, knot.frame));
+        evaluation_at(core->evaluation, core->focus.active, document_sample(core->document, knot.frame));
     knot.value = here.y + here.re;
     if (pose) knot.phase = here.im;
     insert_at(core, &knot);
@@ -87,10 +87,10 @@ void core_set_hold(struct core *core, int holds)
     if (all) holds = HOLDS_VALUE;
     if (!core_step(core, labels[holds], 0)) return;
     core_collect(core, false);
-    for (int i = 0; i < core->originals.count; i++) {
-        const int of = core->originals.list[i].spline;
+    for (int i = 0; i < core->step.originals.count; i++) {
+        const int of = core->step.originals.list[i].spline;
         const struct spline *spline = core->document->splines[of];
-        const struct knot *was = &core->originals.list[i].knot;
+        const struct knot *was = &core->step.originals.list[i].knot;
         const int sample = document_sample(core->document, was->frame);
         struct knot knot = *was;
         if (holds == HOLDS_POSE && (spline_mode(spline) != WIGGLY_COMPLEX || was->has_phase)) continue;
@@ -125,8 +125,8 @@ void core_toggle_settles(struct core *core, int unused)
     }
     if (!core_step(core, all ? "Settle off" : "Settle here", 0)) return;
     core_collect(core, false);
-    for (int i = 0; i < core->originals.count; i++) {
-        const struct original *original = &core->originals.list[i];
+    for (int i = 0; i < core->step.originals.count; i++) {
+        const struct original *original = &core->step.originals.list[i];
         struct knot knot = original->knot;
         if (knot.still) continue;
         knot.settles = !all;
@@ -138,14 +138,14 @@ void core_toggle_settles(struct core *core, int unused)
 /// Deletes the selected knots in a step `label`.
 static void remove_knots(struct core *core, const char *label)
 {
-    const struct originals *originals = &core->originals;
+    const struct originals *originals = &core->step.originals;
     if (!core_step(core, label, 0)) return;
     core_collect(core, false);
     for (int i = originals->count - 1; i >= 0; i--) {
         const struct original *original = &originals->list[i];
-        edit_knot_remove(core->document, original->spline, original->knot.id, &core->error);
+        edit_knot_remove(core->document, original->spline, original->knot.id, &core->step.error);
     }
-    selection_clear(&core->selection);
+    selection_clear(&core->focus.selection);
 }
 
 void core_delete(struct core *core, int unused)
@@ -155,7 +155,7 @@ void core_delete(struct core *core, int unused)
     (void)unused;
     if (!pin) {
         remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");
-    } else if (core_step(core, "Delete pin", 0) && edit_pin_remove(core->document, rig, pin->id, &core->error)) {
+    } else if (core_step(core, "Delete pin", 0) && edit_pin_remove(core->document, rig, pin->id, &core->step.error)) {
         pins_clear(core);
     }
 }
@@ -164,11 +164,11 @@ void core_select_all(struct core *core, int all_splines)
 {
     const struct document *document = core->document;
     pins_clear(core);
-    selection_clear(&core->selection);
+    selection_clear(&core->focus.selection);
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
-        if (all_splines ? !spline_list_shows(core, s) : s != core->active) continue;
-        for (int k = 0; k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
+        if (all_splines ? !spline_list_shows(core, s) : s != core->focus.active) continue;
+        for (int k = 0; k < spline->knot_count; k++) selection_set(&core->focus.selection, spline->knots[k].id, true);
     }
     selected_activate(core);
 }
@@ -185,9 +185,9 @@ const struct knot *core_select_neighbour(struct core *core, int direction)
 {
     const struct spline *spline = core_active_spline(core);
     if (!spline || spline->knot_count == 0) return NULL;
-    int single = selection_single(&core->selection, spline);
+    int single = selection_single(&core->focus.selection, spline);
     int next = single + direction;
-    if (single < 0) next = beside(core->document, spline, core->playback.position, direction);
+    if (single < 0) next = beside(core->document, spline, core->view.playback.position, direction);
     if (next < 0 || next >= spline->knot_count) return NULL;
     select_only(core, spline->knots[next].id);
     return &spline->knots[next];
@@ -197,7 +197,7 @@ const struct knot *core_visit_neighbour(struct core *core, int direction)
 {
     const struct document *document = core->document;
     const struct spline *spline = core_active_spline(core);
-    const int next = spline ? beside(document, spline, core->playback.position, direction) : -1;
+    const int next = spline ? beside(document, spline, core->view.playback.position, direction) : -1;
     if (next < 0) {
         core_message(core, false,
                      direction < 0 ? "No knot lies before the playhead." : "No knot lies after the playhead.");
@@ -214,12 +214,12 @@ const struct knot *core_extend_selection(struct core *core, int direction)
     const struct spline *spline = core_active_spline(core);
     int end = -1;
     for (int k = 0; spline && k < spline->knot_count; k++) {
-        if (selection_has(&core->selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
+        if (selection_has(&core->focus.selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
     }
     if (end < 0) return core_select_neighbour(core, direction);
     int next = end + direction;
     if (next < 0 || next >= spline->knot_count) return NULL;
-    selection_set(&core->selection, spline->knots[next].id, true);
+    selection_set(&core->focus.selection, spline->knots[next].id, true);
     return &spline->knots[next];
 }
 
@@ -274,7 +274,7 @@ void slopes_set(struct core *core, int how)
     };
     const uint64_t merge = changes[how].merges ? core_merge_key(core, changes[how].merges) : 0;
     const bool aims = how == SLOPES_FLAT || how == SLOPES_SMOOTH;
-    const double more = changes[how].slope * core->visible;
+    const double more = changes[how].slope * core->view.visible;
     if (selected_count(core) == 0 || !core_step(core, changes[how].label, merge)) return;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         const struct knot *before = knot_at(document, at);
@@ -287,7 +287,8 @@ void slopes_set(struct core *core, int how)
         if (!isfinite(knot.slope)) knot.slope = 0;
         if (!(before->stiffness > 0)) knot.stiffness = FIRM;
         if (aims) knot.slope = how == SLOPES_FLAT ? 0 : catmull_rom(core, at);
-        if (aims || more != 0 || fresh) knot.slope = core_round(knot.slope + more, SLOPE_RESOLUTION * core->visible);
+        if (aims || more != 0 || fresh)
+            knot.slope = core_round(knot.slope + more, SLOPE_RESOLUTION * core->view.visible);
         knot.stiffness = fmin(fmax(knot.stiffness * changes[how].stiffness, 1e-3), 1e9);
         core_put_knot(core, at.spline, &knot);
     }
@@ -305,8 +306,8 @@ static void say_count(struct core *core, const char *what, int count)
 static int collect(struct core *core)
 {
     core_collect(core, false);
-    if (core->originals.count == 0) core_message(core, false, "No knots are selected.");
-    return core->originals.count;
+    if (core->step.originals.count == 0) core_message(core, false, "No knots are selected.");
+    return core->step.originals.count;
 }
 
 bool core_copy_knots(struct core *core, bool cut)
@@ -315,7 +316,7 @@ bool core_copy_knots(struct core *core, bool cut)
     if (count == 0) return false;
 
     // Knots of a single spline leave out its name, so that they can be pasted into any.
-    const struct original *originals = core->originals.list;
+    const struct original *originals = core->step.originals.list;
     const bool mixed = originals[0].spline != originals[count - 1].spline;
     struct knot_list list = {need((size_t)count, sizeof *list.knots), need((size_t)count, sizeof *list.splines),
                              count};
@@ -344,9 +345,9 @@ static bool insert_copy(struct core *core, int spline, const struct knot *knot, 
 /// Selects the knots inserted from `first_id` on.
 static void select_from(struct core *core, unsigned first_id)
 {
-    selection_clear(&core->selection);
+    selection_clear(&core->focus.selection);
     pins_clear(core);
-    for (unsigned id = first_id; id < core->document->next_id; id++) selection_set(&core->selection, id, true);
+    for (unsigned id = first_id; id < core->document->next_id; id++) selection_set(&core->focus.selection, id, true);
     selected_activate(core);
     core_edited(core, -1);
 }
@@ -374,7 +375,7 @@ void core_paste_knots(struct core *core, const char *text)
     for (int k = 0; k < list.count && good; k++) {
         const char *name = list.splines ? list.splines[k] : NULL;
         const int named = name ? document_find_spline(document, name) : -1;
-        good = insert_copy(core, named >= 0 ? named : core->active, &list.knots[k], shift);
+        good = insert_copy(core, named >= 0 ? named : core->focus.active, &list.knots[k], shift);
     }
     if (good) select_from(core, first_id);
     if (good) say_count(core, "Pasted", list.count);
@@ -407,7 +408,7 @@ static double copies_shift(const struct originals *originals, const struct docum
 void core_duplicate_knots(struct core *core)
 {
     struct document *document = core->document;
-    const struct originals *originals = &core->originals;
+    const struct originals *originals = &core->step.originals;
     const int count = collect(core);
     if (count == 0) return;
     const double shift = copies_shift(originals, document);
@@ -423,7 +424,7 @@ void core_duplicate_knots(struct core *core)
     const int end = (int)fmin(ceil(most), SCENE_MAX_FRAME);
     const bool longer = end > document->last_frame;
     if (!core_step(core, count == 1 ? "Duplicate knot" : "Duplicate knots", 0)) return;
-    bool good = !longer || edit_range(document, document->first_frame, end, RANGE_REFUSE, &core->error);
+    bool good = !longer || edit_range(document, document->first_frame, end, RANGE_REFUSE, &core->step.error);
     for (int i = 0; i < count && good; i++)
         good = insert_copy(core, originals->list[i].spline, &originals->list[i].knot, shift);
     if (!good) return;

@@ -81,15 +81,15 @@ void rigs_add_tail(struct core *core)
     if (!core_step(core, "Add tail", 0)) return;
     const bool is_new = !core_active_spline(core);
     const struct knot first = {.frame = round(core_frame(core))};
-    bool done = !is_new || edit_spline_add(document, -1, NULL, &first, &core->error);
-    const int spline = is_new ? document->spline_count - 1 : core->active;
-    done = done && edit_tail_add(document, -1, spline, &core->error);
+    bool done = !is_new || edit_spline_add(document, -1, NULL, &first, &core->step.error);
+    const int spline = is_new ? document->spline_count - 1 : core->focus.active;
+    done = done && edit_tail_add(document, -1, spline, &core->step.error);
     if (done) {
         struct rig added = *document->rigs[document->rig_count - 1];
         added.tail.position[0] = param_number(place);
-        done = edit_rig_set(document, document->rig_count - 1, &added, &core->error);
+        done = edit_rig_set(document, document->rig_count - 1, &added, &core->step.error);
     }
-    core->refit_stage = done;
+    core->view.refit_stage = done;
     if (done) core_activate(core, spline);
 }
 
@@ -117,8 +117,8 @@ void rigs_copy(struct core *core, int rig)
         return;
     }
     if (!core_step(core, "Add one more", 0)) return;
-    bool done = copy.kind == RIG_TAIL ? edit_tail_add(document, rig, core->active, &core->error)
-                                      : edit_rig_add(document, &copy, &core->error);
+    bool done = copy.kind == RIG_TAIL ? edit_tail_add(document, rig, core->focus.active, &core->step.error)
+                                      : edit_rig_add(document, &copy, &core->step.error);
 
     // A model's chains are copied onto its copy, the last rig.
     const int count = document->rig_count;
@@ -128,10 +128,10 @@ void rigs_copy(struct core *core, int rig)
         char *name = need_text(document->rigs[count - 1]->name);
         chain.chain.model = name;
         chain.pin_count = 0;
-        done = edit_rig_add(document, &chain, &core->error);
+        done = edit_rig_add(document, &chain, &core->step.error);
         free(name);
     }
-    core->refit_stage = done;
+    core->view.refit_stage = done;
 }
 
 /// What goes with a rig: its chains, and splines that move nothing else.
@@ -165,7 +165,7 @@ static void removal_free(struct removal *removal)
 static void remove_rig(struct core *core, int rig, bool with_splines)
 {
     struct document *document = core->document;
-    struct error *error = &core->error;
+    struct error *error = &core->step.error;
     struct removal removal;
     bool done = true;
     if (rig < 0 || rig >= document->rig_count) return;
@@ -247,7 +247,7 @@ const struct imported *bones_character(const struct core *core, int model)
 
 int bones_selected(const struct core *core, int *model)
 {
-    const struct bone_selection *bone = &core->bone;
+    const struct bone_selection *bone = &core->focus.bone;
     *model = bone->any ? document_find_rig(core->document, RIG_MODEL, bone->model) : -1;
     const struct imported *shown = *model >= 0 ? bones_character(core, *model) : NULL;
     return shown && shown->gltf.id == bone->file ? bone->node : -1;
@@ -261,7 +261,7 @@ const char *bones_title(const struct document *document, int model, const char *
     return title;
 }
 
-void bones_clear(struct core *core) { core->bone.any = false; }
+void bones_clear(struct core *core) { core->focus.bone.any = false; }
 
 int bones_joints(const struct core *core, int rig)
 {
@@ -278,8 +278,8 @@ void bones_choose_clip(struct core *core, int model, const char *clip, enum clip
     const struct imported *character = bones_character(core, model);
     const int first = core->document->first_frame, last = core->document->last_frame;
     if (!character || !core_step(core, repeat == REPEAT_BY_CLIP ? "Choose clip" : "Loop clip", 0)) return;
-    if (!import_choose_clip(core->document, model, &character->gltf, clip, repeat, &core->error)) return;
-    core->refit_curves = core->document->first_frame != first || core->document->last_frame != last;
+    if (!import_choose_clip(core->document, model, &character->gltf, clip, repeat, &core->step.error)) return;
+    core->view.refit_curves = core->document->first_frame != first || core->document->last_frame != last;
 }
 
 void bones_make_chain(struct core *core, int follow)
@@ -294,11 +294,11 @@ void bones_make_chain(struct core *core, int follow)
     const struct chain_wish wish = {
         .model = model, .from = bones_character(core, model)->gltf.nodes[node].name, .follows = follow};
     if (!core_step(core, follow ? "Make chain that follows" : "Make chain", 0)) return;
-    if (!chain_make(core->document, core->models, &wish, &rig, &core->error)) return;
+    if (!chain_make(core->document, core->models, &wish, &rig, &core->step.error)) return;
     const struct rig *made = core->document->rigs[rig];
     core_activate(core, rig_input(made, 0));
-    core->limb = made->id;
-    core->refit_curves = !has_splines;
+    core->focus.limb = made->id;
+    core->view.refit_curves = !has_splines;
 
     const char *playing = core->document->rigs[model]->model.clip, *clip = follow && playing ? playing : "";
     char title[BONES_TITLE];
@@ -322,17 +322,20 @@ int bones_below(const struct imported *character, int top, int *nodes, int most)
     return count;
 }
 
-void bones_pick(struct core *core, enum bone_use use, int which) { core->pick = (struct bone_pick){use, which}; }
+void bones_pick(struct core *core, enum bone_use use, int which)
+{
+    core->focus.pick = (struct bone_pick){use, which};
+}
 
 void bones_clicked(struct core *core, int model, int node)
 {
-    const struct bone_pick pick = core->pick;
+    const struct bone_pick pick = core->focus.pick;
     const struct document *document = core->document;
-    core->pick = (struct bone_pick){0};
+    core->focus.pick = (struct bone_pick){0};
     if (pick.use == BONE_SELECTED) {
         const struct imported *shown = bones_character(core, model);
         if (shown)
-            core->bone = (struct bone_selection){
+            core->focus.bone = (struct bone_selection){
                 .any = true, .model = document_rig_number(document, model), .file = shown->gltf.id, .node = node};
     } else if (pick.use == BONE_FOLLOWED) {
         bones_follow(core, pick.which, model, node);
@@ -395,7 +398,7 @@ void bones_follow(struct core *core, int spline, int model, int node)
     if (node >= 0) motion.joint = character->gltf.nodes[node].name;
     const bool is_new = !old->motion;
     if (!core_step(core, "Follow joint", 0)) return;
-    if (!edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error) || !is_new) return;
+    if (!edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->step.error) || !is_new) return;
 
     // The followed joint already carries the chains, so their channels bend by the displacement alone.
     for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
@@ -403,7 +406,7 @@ void bones_follow(struct core *core, int spline, int model, int node)
             struct channel changed = document->rigs[r]->chain.channels[c];
             if (changed.spline != spline) continue;
             changed.of = PART_DISPLACEMENT;
-            edit_channel(core->document, (struct channel_place){r, c}, &changed, &core->error);
+            edit_channel(core->document, (struct channel_place){r, c}, &changed, &core->step.error);
         }
     }
 }
@@ -435,7 +438,7 @@ static bool follow_end(struct core *core, const char *chain, const char *old, ch
         if (strcmp(motion.chain, chain) != 0 || strcmp(motion.joint, old) != 0) continue;
         motion.joint = new;
         param.motion = &motion;
-        done &= edit_parameter(core->document, s, PARAMETER_EQUILIBRIUM, &param, &core->error);
+        done &= edit_parameter(core->document, s, PARAMETER_EQUILIBRIUM, &param, &core->step.error);
     }
     return done;
 }
@@ -456,7 +459,7 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     contents.chain.from = ends[0];
     contents.chain.to = ends[1];
     const bool done = core_step(core, "Set chain's bones", 0) &&
-                      edit_rig_set(core->document, chain, &contents, &core->error) &&
+                      edit_rig_set(core->document, chain, &contents, &core->step.error) &&
                       follow_end(core, contents.name, old, ends[1]);
     free(old);
     if (!done) return;
@@ -498,7 +501,7 @@ void bones_make_twin(struct core *core, int chain)
     twin.chain.to = to;
     twin.chain.mirror = !twin.chain.mirror;
     twin.chain.turn = -twin.chain.turn;
-    if (!core_step(core, "Mirror chain", 0) || !edit_rig_add(core->document, &twin, &core->error)) return;
+    if (!core_step(core, "Mirror chain", 0) || !edit_rig_add(core->document, &twin, &core->step.error)) return;
     core_message(core, false, "Made the chain %s, mirrored, by the same splines.",
                  rig_title(core->document->rigs[core->document->rig_count - 1]));
 }
@@ -507,15 +510,15 @@ void bones_make_twin(struct core *core, int chain)
 
 const struct character_rig *characters_selected(const struct core *core)
 {
-    return document_character(core->document, core->characters.character);
+    return document_character(core->document, core->focus.characters.character);
 }
 
 const struct figure *characters_figure(const struct core *core, int *coordinate)
 {
     const struct character_rig *rig = characters_selected(core);
-    const struct figure *figure = models_figure(core->models, core->characters.character);
-    if (!rig || !figure || core->characters.drive >= rig->drive_count) return NULL;
-    *coordinate = figure_find(figure, rig->drives[core->characters.drive].name);
+    const struct figure *figure = models_figure(core->models, core->focus.characters.character);
+    if (!rig || !figure || core->focus.characters.drive >= rig->drive_count) return NULL;
+    *coordinate = figure_find(figure, rig->drives[core->focus.characters.drive].name);
     return *coordinate >= 0 ? figure : NULL;
 }
 
@@ -530,7 +533,7 @@ void characters_set_brush(struct core *core, bool on)
 {
     int coordinate;
     const struct figure *figure = on ? characters_figure(core, &coordinate) : NULL;
-    core->brush.on = figure != NULL;
+    core->focus.brush.on = figure != NULL;
     if (!on) return;
     if (!figure) {
         core_message(core, false, "This scene has no character to paint.");
@@ -543,20 +546,20 @@ void characters_set_brush(struct core *core, bool on)
     for (int k = 1; k < 3; k++) {
         if (largest[k] > largest[axis]) axis = k;
     }
-    if (!core->characters.mapped) core->characters.axis = axis;
+    if (!core->focus.characters.mapped) core->focus.characters.axis = axis;
     core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
 }
 
 int characters_rig(const struct core *core)
 {
-    return document_find_rig(core->document, RIG_CHARACTER, core->characters.character);
+    return document_find_rig(core->document, RIG_CHARACTER, core->focus.characters.character);
 }
 
 bool characters_blank_paint(struct core *core, const struct figure *figure)
 {
     const struct character *character = &figure->character;
     return edit_paint_new(core->document, characters_rig(core), character->coordinate_count, character->vertex_count,
-                          &core->error);
+                          &core->step.error);
 }
 
 void characters_clean_paint(struct core *core, int unused)
@@ -590,7 +593,8 @@ const struct pin *pins_selected(const struct core *core, int *rig)
 {
     struct pin_place place = PINS_START;
     const struct pin *pin = NULL;
-    while (core->pin.any && (pin = pins_next(core->document, &place)) && pin->id != core->pin.id) continue;
+    while (core->focus.pin.any && (pin = pins_next(core->document, &place)) && pin->id != core->focus.pin.id)
+        continue;
     *rig = place.rig;
     return pin;
 }
@@ -610,18 +614,18 @@ uint32_t pins_color(const struct document *document, int rig)
 /// Selects a pin and deselects knots.
 static void pins_select(struct core *core, unsigned id)
 {
-    selection_clear(&core->selection);
-    core->pin = (struct pin_selection){.any = true, .id = id};
+    selection_clear(&core->focus.selection);
+    core->focus.pin = (struct pin_selection){.any = true, .id = id};
 }
 
 void pins_visit(struct core *core, const struct pin *pin)
 {
-    core->playback.playing = false;
+    core->view.playback.playing = false;
     playback_seek(core, pin->frame);
     pins_select(core, pin->id);
 }
 
-void pins_clear(struct core *core) { core->pin.any = false; }
+void pins_clear(struct core *core) { core->focus.pin.any = false; }
 
 double pins_frame_here(const struct core *core, int rig)
 {
@@ -654,7 +658,7 @@ bool pins_put(struct core *core, int rig, int point, double frame, const double 
     struct pin pin = {.frame = frame, .point = point};
     if (there >= 0) pin = document->rigs[rig]->pins[there];
     for (int k = 0; k < 3; k++) pin.to[k] = to[k];
-    if (!pins_set(core->document, rig, &pin, &core->error)) return false;
+    if (!pins_set(core->document, rig, &pin, &core->step.error)) return false;
     pins_select(core, document->rigs[rig]->pins[pins_find(document, document->rigs[rig], point, sample)].id);
     pins_tell(core, rig);
     return true;
@@ -665,7 +669,7 @@ void pins_put_here(struct core *core, int rig, int point, const double to[3])
     const double frame = pins_frame_here(core, rig);
     if (!core_step(core, "Pin", 0) || !pins_put(core, rig, point, frame, to)) return;
     core_message(core, false, "Pinned at frame %.6g. Drag the marker, or type its place in the section Pins.", frame);
-    core->playback.playing = false;
+    core->view.playback.playing = false;
     playback_seek(core, frame);
 }
 
@@ -683,7 +687,7 @@ void pins_nudge(struct core *core, const double by[3])
     struct pin moved = *pin;
     for (int k = 0; k < 3; k++) moved.to[k] += by[k];
     if (!core_step(core, "Nudge pin", merge_key(pin, NUDGE_PLACE))) return;
-    if (pins_set(core->document, rig, &moved, &core->error)) pins_tell(core, rig);
+    if (pins_set(core->document, rig, &moved, &core->step.error)) pins_tell(core, rig);
 }
 
 void pins_retime(struct core *core, int frames)
@@ -700,7 +704,7 @@ void pins_retime(struct core *core, int frames)
         if (sample < 0 || sample > pins_last_sample(document, document->rigs[rig])) return;
     } while (pins_find(document, document->rigs[rig], pin->point, sample) >= 0);
     if (!core_step(core, "Move pin in time", merge_key(pin, NUDGE_FRAME))) return;
-    if (!pins_set(core->document, rig, &moved, &core->error)) return;
+    if (!pins_set(core->document, rig, &moved, &core->step.error)) return;
     playback_seek(core, moved.frame);
     pins_tell(core, rig);
 }

@@ -14,7 +14,7 @@
 void core_activate_neighbour(struct core *core, int direction)
 {
     int count = core->document->spline_count;
-    if (count > 0) core_choose(core, ((core->active + direction) % count + count) % count);
+    if (count > 0) core_choose(core, ((core->focus.active + direction) % count + count) % count);
 }
 
 void spline_list_add(struct core *core)
@@ -22,27 +22,29 @@ void spline_list_add(struct core *core)
     struct document *document = core->document;
     const double frame = round(core_frame(core));
     const struct knot first = {.frame = fmax(document->first_frame, fmin(frame, document->last_frame))};
-    if (core_step(core, "Add spline", 0) && edit_spline_add(document, -1, NULL, &first, &core->error))
+    if (core_step(core, "Add spline", 0) && edit_spline_add(document, -1, NULL, &first, &core->step.error))
         core_activate(core, document->spline_count - 1);
 }
 
 void spline_list_copy(struct core *core)
 {
     if (!core_active_spline(core) || !core_step(core, "Duplicate spline", 0)) return;
-    if (edit_spline_copy(core->document, core->active, &core->error)) core_activate(core, core->active + 1);
+    if (edit_spline_copy(core->document, core->focus.active, &core->step.error))
+        core_activate(core, core->focus.active + 1);
 }
 
 void spline_list_move(struct core *core, int spline, int to)
 {
     if (to == spline || to < 0 || to >= core->document->spline_count) return;
-    if (core_step(core, "Reorder splines", 0)) edit_spline_move(core->document, spline, to, &core->error);
+    if (core_step(core, "Reorder splines", 0)) edit_spline_move(core->document, spline, to, &core->step.error);
 }
 
 double spline_list_present(const struct core *core, int spline, enum parameter parameter)
 {
     const struct spline *follower = core->document->splines[spline];
     const struct param *param = &follower->parameter[parameter];
-    wiggly_value v = evaluation_at(core->evaluation, param->motion ? spline : param->track, core->playback.position);
+    wiggly_value v =
+        evaluation_at(core->evaluation, param->motion ? spline : param->track, core->view.playback.position);
     double now = param->motion ? v.y : v.y + v.re, value = isfinite(now) ? now : parameter_rows[parameter].standard;
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
@@ -52,7 +54,7 @@ static bool release(struct core *core, const struct reference *reference)
 {
     struct document *document = core->document;
     const int owner = reference->owner, which = reference->which;
-    const wiggly_value now = evaluation_at(core->evaluation, core->active, core->playback.position);
+    const wiggly_value now = evaluation_at(core->evaluation, core->focus.active, core->view.playback.position);
     switch (reference->kind) {
     case REFERENCE_TRACK: {
         const enum parameter parameter = (enum parameter)which;
@@ -61,12 +63,12 @@ static bool release(struct core *core, const struct reference *reference)
     case REFERENCE_POSITION: {
         struct rig changed = *document->rigs[owner];
         changed.tail.position[which] = param_number(now.y + now.re);
-        return edit_rig_set(document, owner, &changed, &core->error);
+        return edit_rig_set(document, owner, &changed, &core->step.error);
     }
     case REFERENCE_CHANNEL:
-        return edit_channel_remove(document, (struct channel_place){owner, which}, &core->error);
+        return edit_channel_remove(document, (struct channel_place){owner, which}, &core->step.error);
     case REFERENCE_DRIVE:
-        return edit_drive_remove(document, owner, which, &core->error);
+        return edit_drive_remove(document, owner, which, &core->step.error);
     }
     return false;
 }
@@ -79,14 +81,14 @@ static void remove_active(void *dialogs, struct core *core, int answer)
 
     // The last reference goes first, so that the others' indices stay valid.
     bool good = true;
-    while (good && reference_count(core->document, core->active) > 0) {
+    while (good && reference_count(core->document, core->focus.active) > 0) {
         struct reference last = {0};
         for (struct reference reference = {0}; reference_next(core->document, &reference);) {
-            if (reference.spline == core->active) last = reference;
+            if (reference.spline == core->focus.active) last = reference;
         }
         good = release(core, &last);
     }
-    if (good) edit_spline_remove(core->document, core->active, &core->error);
+    if (good) edit_spline_remove(core->document, core->focus.active, &core->step.error);
     core_refresh(core); // the rest of this event needs an active spline
 }
 
@@ -95,7 +97,7 @@ void spline_list_remove(struct core *core)
     static const struct answer answers[] = {{"dialog.delete", "Delete", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
     const struct spline *active = core_active_spline(core);
     if (!active) return;
-    const int count = reference_count(core->document, core->active);
+    const int count = reference_count(core->document, core->focus.active);
     if (count == 0) {
         remove_active(NULL, core, 0);
         return;
@@ -109,7 +111,7 @@ void spline_list_remove(struct core *core)
 
 static void set_fps(struct core *core, double fps, bool keeps_seconds)
 {
-    if (core_step(core, "Set frames per second", 0)) edit_fps(core->document, fps, keeps_seconds, &core->error);
+    if (core_step(core, "Set frames per second", 0)) edit_fps(core->document, fps, keeps_seconds, &core->step.error);
 }
 
 static void answer_fps(void *dialogs, struct core *core, int answer)
@@ -141,7 +143,7 @@ void spline_list_fps(struct core *core, double fps)
 
 static void set_range(struct core *core, int first, int last, enum range_fit fit)
 {
-    if (core_step(core, "Set range", 0)) edit_range(core->document, first, last, fit, &core->error);
+    if (core_step(core, "Set range", 0)) edit_range(core->document, first, last, fit, &core->step.error);
 }
 
 static int count_outside(const struct document *document, int first, int last)
@@ -192,8 +194,9 @@ void spline_list_range(struct core *core, int first, int last)
 int core_limb(const struct core *core)
 {
     const struct document *document = core->document;
-    for (int r = 0; core->limb != 0 && r < document->rig_count; r++) {
-        if (document->rigs[r]->id == core->limb) return rig_is_moved(document->rigs[r], core->active) ? r : -1;
+    for (int r = 0; core->focus.limb != 0 && r < document->rig_count; r++) {
+        if (document->rigs[r]->id == core->focus.limb)
+            return rig_is_moved(document->rigs[r], core->focus.active) ? r : -1;
     }
     return -1;
 }
@@ -214,7 +217,7 @@ bool core_set_felt(struct core *core, int limb, enum parameter parameter, double
     bool done = true;
     for (int s = 0; s < document->spline_count && done; s++) {
         const struct spline *spline = document->splines[s];
-        const bool is_active = s == core->active;
+        const bool is_active = s == core->focus.active;
         const bool changes = is_active || (is_shared && limb >= 0 && rig_is_moved(document->rigs[limb], s) &&
                                            spline_uses(spline, parameter, false));
         if (param_follows(&spline->parameter[parameter]) || !changes) continue;
@@ -255,8 +258,8 @@ const struct channel *core_active_channel(const struct core *core, int *rig, int
         const struct channel *channels = rig_channels(core->document->rigs[r], &count);
         for (int c = count - 1; c >= 0; c--) {
             const struct channel *candidate = &channels[c];
-            const bool suits = first && first->spline == core->active;
-            if (suits && (candidate->spline != core->active || (*rig == limb && r != limb))) continue;
+            const bool suits = first && first->spline == core->focus.active;
+            if (suits && (candidate->spline != core->focus.active || (*rig == limb && r != limb))) continue;
             first = candidate;
             *rig = r;
             *channel = c;
@@ -282,7 +285,7 @@ static void nudge_lag(struct core *core, double degrees)
     const struct channel_place at = {rig, channel};
     const uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
     if (core_step(core, "Change lag", core_merge_key(core, kind)))
-        core_set_lag(core, core_limb(core), at, &lag, &core->error);
+        core_set_lag(core, core_limb(core), at, &lag, &core->step.error);
 }
 
 /// Of the largest value.
@@ -313,7 +316,7 @@ double core_fresh_limit(const struct spline *spline, enum parameter parameter)
 static bool say_idle(struct core *core, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
-    if (parameter == PARAMETER_CALM && !spline_uses_calm(core->document, core->active)) {
+    if (parameter == PARAMETER_CALM && !spline_uses_calm(core->document, core->focus.active)) {
         core_message(core, false, "Calm is for whole curves: drag the wind-up to its right end first.");
         return true;
     }
@@ -330,10 +333,10 @@ static bool say_idle(struct core *core, const struct spline *spline, enum parame
 void core_nudge_parameter(struct core *core, int direction)
 {
     const struct spline *spline = core_active_spline(core);
-    if (core->held_key == 0) return;
-    core->held_used = true;
-    if (core->held_key == 'L') nudge_lag(core, 0.5 * direction);
-    const enum parameter parameter = parameter_of_letter(core->held_key);
+    if (core->input.held_key == 0) return;
+    core->input.held_used = true;
+    if (core->input.held_key == 'L') nudge_lag(core, 0.5 * direction);
+    const enum parameter parameter = parameter_of_letter(core->input.held_key);
     if (!spline || parameter == PARAMETER_COUNT || say_idle(core, spline, parameter)) return;
     const double step = parameter_rows[parameter].step * direction;
     const struct param *before = &spline->parameter[parameter];
@@ -351,7 +354,7 @@ void core_nudge_parameter(struct core *core, int direction)
     param.value = fmin(fmax(param.value, parameter_rows[parameter].minimum), most);
     if (param.value == before->value) return;
     if (core_step(core, "Change parameter", core_merge_key(core, NUDGE_PARAMETER + parameter)))
-        core_set_felt(core, core_limb(core), parameter, param.value, false, &core->error);
+        core_set_felt(core, core_limb(core), parameter, param.value, false, &core->step.error);
 }
 
 void core_cycle_choice(struct core *core, int parameter)
@@ -361,7 +364,7 @@ void core_cycle_choice(struct core *core, int parameter)
     if (!spline) return;
     double next = spline->parameter[parameter].value + 1;
     if (core_step(core, row->undo, 0))
-        core_set_parameter(core, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0);
+        core_set_parameter(core, core->focus.active, (enum parameter)parameter, next <= row->maximum ? next : 0);
 }
 
 void core_toggle_pose_to_pose(struct core *core, int unused)
@@ -371,8 +374,8 @@ void core_toggle_pose_to_pose(struct core *core, int unused)
     if (!spline) return;
     const bool settles = !spline_settles(spline);
     if (!core_step(core, settles ? "Pose to pose" : "Settle off", 0)) return;
-    edit_spline_settles(core->document, core->active, settles, &core->error);
-    core_edited(core, core->active);
+    edit_spline_settles(core->document, core->focus.active, settles, &core->step.error);
+    core_edited(core, core->focus.active);
 }
 
 /// Finds explanations of the knots; returns how many.
@@ -392,8 +395,9 @@ static int explain(const struct core *core, const struct spline *spline, wiggly_
     desc.knots = knots;
     desc.knot_count = spline->knot_count;
     desc.equilibrium.value = spline->parameter[PARAMETER_EQUILIBRIUM].value;
-    if (param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) && evaluation && core->active < evaluation->count)
-        desc.equilibrium.track = evaluation->curves[core->active].y;
+    if (param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) && evaluation &&
+        core->focus.active < evaluation->count)
+        desc.equilibrium.track = evaluation->curves[core->focus.active].y;
     const int count = wiggly_explain(&desc, found);
     free(knots);
     return count;
@@ -423,12 +427,12 @@ void core_find_frequency(struct core *core, int unused)
     }
     const bool is_set = p[PARAMETER_FREQUENCY].value == frequency_of(&found[0]) &&
                         p[PARAMETER_DAMPING].value == damping_of(&found[0]);
-    const int active = core->active, chosen = count == 2 && is_set ? 1 : 0;
+    const int active = core->focus.active, chosen = count == 2 && is_set ? 1 : 0;
     if (!core_step(core, "Find frequency", 0) ||
         !core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) ||
         !core_set_parameter(core, active, PARAMETER_DAMPING, damping_of(&found[chosen])))
         return;
-    core_edited(core, core->active);
+    core_edited(core, core->focus.active);
     const char *which = chosen ? "Runner-up" : "Best";
     const double hz = found[chosen].frequency, damping = found[chosen].damping;
     if (count == 1) {

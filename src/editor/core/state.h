@@ -322,30 +322,21 @@ struct knot_place {
     int spline, knot;
 };
 
-struct core {
-    // The scene, owned by the app: set by editor_open().
-    struct document *document;
-    struct history *history;
-    const struct evaluation *evaluation;
-    const struct models *models;
-    unsigned serial;       ///< of the document
-    char title[256];       ///< file name, or "untitled"
-    char path[PATH_LIMIT]; ///< of the document's file, or ""
-    bool unkept;           ///< unsaved work has no recovery file
-    struct take take;
-
-    // The undo step, and what it leaves for the frame.
-    bool step_ends;           ///< an undo step is open and ends with this event; a drag's goes on
+/// The open undo step, and what its edits leave for the frame.
+struct step {
+    bool ends;                ///< it is open and ends with this event; a drag's goes on
     struct error error;       ///< of the last failed edit, until core_settle()
-    struct originals pressed; ///< the free knots as the open step began, with the phases they had
+    struct originals pressed; ///< the free knots as it began, with the phases they had
     struct originals originals;
     struct edited edited;
     bool keep;             ///< an edit leaves what follows the next knot as it is
     bool auto_key;         ///< dragging a body sets knots at the playhead instead of moving the whole shot
     bool record_armed;     ///< record the next drag of a body
     double nudged_seconds; ///< remaining time of a nudged knot's ghost
+};
 
-    // Focus: what keys and commands act on.
+/// What keys and commands act on.
+struct focus {
     int active;                       ///< spline, or -1
     unsigned active_id;               ///< its id, to find it when the list changes
     unsigned recent[CORE_MAX_RECENT]; ///< ids of previously active splines, the latest first
@@ -356,9 +347,10 @@ struct core {
     struct bone_pick pick; ///< until the next edit
     struct character_view characters;
     struct brush brush;
-    int clicked; ///< clicked rig + 1, until the inspector shows it
+};
 
-    // Input: the pointer and held keys.
+/// The pointer and held keys.
+struct input {
     float pointer_x, pointer_y;
     bool finger; ///< is the pointer
     unsigned mods;
@@ -368,8 +360,10 @@ struct core {
     bool no_snap; ///< Ctrl inverts this
     struct drag drag;
     struct hover hover;
+};
 
-    // The view: kept from frame to frame, and never saved with the scene.
+/// What is kept from frame to frame, and never saved with the scene.
+struct view {
     struct layout layout;
     float scale;
     double ui_scale; ///< the user's share of it
@@ -388,9 +382,28 @@ struct core {
     bool plain;                    ///< the stage without text
     bool refit_stage;              ///< fit the camera to the stage
     bool refit_curves;             ///< show all curves after the solve
-    struct drawlist list;
+};
+
+struct core {
+    // The scene, owned by the app: set by editor_open().
+    struct document *document;
+    struct history *history;
+    const struct evaluation *evaluation;
+    const struct models *models;
+    unsigned serial;       ///< of the document
+    char title[256];       ///< file name, or "untitled"
+    char path[PATH_LIMIT]; ///< of the document's file, or ""
+    bool unkept;           ///< unsaved work has no recovery file
+    struct take take;
+
+    struct step step;
+    struct focus focus;
+    struct input input;
+    struct view view;
+    int clicked; ///< clicked rig + 1, until the inspector shows it
 
     // What it says, and asks of the user and the app.
+    struct drawlist list;
     struct message message;
     struct status status;
     bool unshown;             ///< the status line must be redrawn

@@ -18,7 +18,7 @@ static float eased(float share) { return share * share * (3 - 2 * share); }
 
 void core_layout(struct core *core)
 {
-    struct layout *l = &core->layout;
+    struct layout *l = &core->view.layout;
     const float all = fmaxf(l->window.h - THEME_STATUS_HEIGHT, 2);
     const bool upright = l->window.w < UPRIGHT && l->window.h > l->window.w;
     l->upright = upright;
@@ -41,7 +41,7 @@ void core_layout(struct core *core)
     l->open = l->stage;
 
     // Presenting offsets the sliding panels and gives the stage the window.
-    const struct presenter *presenter = &core->presenter;
+    const struct presenter *presenter = &core->view.presenter;
     if (!presenter->on) return;
     const float across = upright ? 0 : roundf((1 - eased(presenter->side)) * l->inspector.w);
     const float down = roundf((1 - eased(presenter->below)) * (l->window.h - l->curves.y));
@@ -59,26 +59,26 @@ void core_layout(struct core *core)
 
 void core_set_panels(struct core *core, double stage_share, double inspector_width)
 {
-    core->layout.stage_share = (float)fmin(fmax(stage_share, 0), 1);
-    core->layout.inspector_width = (float)fmin(fmax(inspector_width, 0), 1e4);
+    core->view.layout.stage_share = (float)fmin(fmax(stage_share, 0), 1);
+    core->view.layout.inspector_width = (float)fmin(fmax(inspector_width, 0), 1e4);
     core_layout(core);
 }
 
 enum panel core_panel_at(const struct core *core, float x, float y)
 {
-    const struct layout *l = &core->layout;
+    const struct layout *l = &core->view.layout;
     if (rect_contains(l->inspector, x, y)) return PANEL_INSPECTOR;
     if (rect_contains(l->status, x, y)) return PANEL_STATUS;
     if (rect_contains(l->curves, x, y)) return PANEL_CURVES;
     return rect_contains(l->stage, x, y) ? PANEL_STAGE : PANEL_NONE;
 }
 
-float core_reach(const struct core *core, float pixels) { return core->finger ? 1.75f * pixels : pixels; }
+float core_reach(const struct core *core, float pixels) { return core->input.finger ? 1.75f * pixels : pixels; }
 
 enum divider core_divider_at(const struct core *core, float x, float y)
 {
-    const struct layout *l = &core->layout;
-    if (core->presenter.on) return DIVIDER_NONE;
+    const struct layout *l = &core->view.layout;
+    if (core->view.presenter.on) return DIVIDER_NONE;
     const float reach = core_reach(core, DIVIDER_REACH), off = l->upright ? y - l->inspector.y : x - l->inspector.x;
     if (y < l->status.y && fabsf(off) < reach) return l->upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR;
     if (x < l->curves.w && fabsf(y - l->curves.y) < reach) return DIVIDER_STAGE;
@@ -87,7 +87,7 @@ enum divider core_divider_at(const struct core *core, float x, float y)
 
 void core_divider_move(struct core *core, enum divider divider, float x, float y)
 {
-    struct layout *l = &core->layout;
+    struct layout *l = &core->view.layout;
     const float height = fmaxf(l->curves.y + l->curves.h, 1);
     const float across = divider == DIVIDER_BELOW ? WHOLE * (1 - y / fmaxf(l->status.y, 1)) : l->window.w - x;
     if (divider == DIVIDER_STAGE) {
@@ -103,11 +103,11 @@ static const float NEAR = 14;     ///< logical pixels from an edge that call its
 
 static bool is_wanted(const struct core *core, enum panel panel)
 {
-    const struct layout *l = &core->layout;
-    const float x = core->pointer_x, y = core->pointer_y;
+    const struct layout *l = &core->view.layout;
+    const float x = core->input.pointer_x, y = core->input.pointer_y;
     const enum panel at = core_panel_at(core, x, y);
-    if (core->presenter.pinned) return true;
-    if (!core->presenter.pointed) return false;
+    if (core->view.presenter.pinned) return true;
+    if (!core->view.presenter.pointed) return false;
     if (panel == PANEL_INSPECTOR && !l->upright) return at == PANEL_INSPECTOR || x > l->window.w - NEAR;
     return at == PANEL_CURVES || at == PANEL_STATUS || (l->upright && at == PANEL_INSPECTOR) ||
            y > l->window.h - NEAR;
@@ -116,13 +116,13 @@ static bool is_wanted(const struct core *core, enum panel panel)
 void presenter_toggle(struct core *core, int argument)
 {
     (void)argument;
-    core->presenter = (struct presenter){.on = !core->presenter.on, .side = 1, .below = 1};
+    core->view.presenter = (struct presenter){.on = !core->view.presenter.on, .side = 1, .below = 1};
     core_layout(core);
 }
 
 bool presenter_event(struct core *core, const struct event *event)
 {
-    struct presenter *presenter = &core->presenter;
+    struct presenter *presenter = &core->view.presenter;
     if (event->kind == EVENT_POINTER) presenter->pointed = true;
     if (!presenter->on || event->action != ACTION_PRESS) return false;
     if (event->kind == EVENT_BUTTON)
@@ -143,9 +143,9 @@ static void slide(float *share, bool in, double dt)
 
 void presenter_advance(struct core *core, double dt, bool busy)
 {
-    struct presenter *presenter = &core->presenter;
+    struct presenter *presenter = &core->view.presenter;
     if (!presenter->on) return;
-    if (!busy && !core->drag.owner) {
+    if (!busy && !core->input.drag.owner) {
         presenter->side_wanted = is_wanted(core, PANEL_INSPECTOR);
         presenter->below_wanted = is_wanted(core, PANEL_CURVES);
     }
@@ -158,7 +158,7 @@ void presenter_advance(struct core *core, double dt, bool busy)
 
 bool presenter_is_sliding(const struct core *core)
 {
-    const struct presenter *p = &core->presenter;
+    const struct presenter *p = &core->view.presenter;
     return p->on && (p->side != (float)p->side_wanted || p->below != (float)p->below_wanted);
 }
 
@@ -166,7 +166,7 @@ bool presenter_is_sliding(const struct core *core)
 
 double core_frame(const struct core *core)
 {
-    return core->document->first_frame + core->playback.position / core->document->substeps;
+    return core->document->first_frame + core->view.playback.position / core->document->substeps;
 }
 
 double core_position(const struct document *document, double frame)
@@ -177,7 +177,7 @@ double core_position(const struct document *document, double frame)
 void playback_range(const struct core *core, double range[2])
 {
     const struct document *document = core->document;
-    const double *part = core->playback.range;
+    const double *part = core->view.playback.range;
     range[0] = fmax(part[0], document->first_frame);
     range[1] = fmin(part[1], document->last_frame);
     if (range[0] < range[1]) return;
@@ -194,7 +194,7 @@ bool playback_is_part(const struct core *core)
 
 void playback_choose(struct core *core, double first, double last)
 {
-    double *range = core->playback.range;
+    double *range = core->view.playback.range;
     range[0] = first;
     range[1] = last;
     if (first < last && playback_is_part(core)) return;
@@ -229,7 +229,7 @@ enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
 
 static void go_to(struct core *core, double position)
 {
-    core->playback.position = fmin(fmax(position, 0), fmax(document_samples(core->document) - 1, 0));
+    core->view.playback.position = fmin(fmax(position, 0), fmax(document_samples(core->document) - 1, 0));
 }
 
 /// The played range in samples.
@@ -241,7 +241,7 @@ static void range_positions(const struct core *core, double range[2])
 
 void playback_toggle(struct core *core)
 {
-    struct playback *playback = &core->playback;
+    struct playback *playback = &core->view.playback;
     double range[2];
     playback->playing = !playback->playing;
     if (!playback->playing) return;
@@ -253,7 +253,7 @@ void playback_toggle(struct core *core)
 
 void playback_advance(struct core *core, double dt)
 {
-    struct playback *playback = &core->playback;
+    struct playback *playback = &core->view.playback;
     const struct document *document = core->document;
     double range[2], from = playback->position;
     if (!playback->playing) {
@@ -281,7 +281,7 @@ void playback_advance(struct core *core, double dt)
 
 void playback_seek(struct core *core, double frame)
 {
-    core->playback.playing = false;
+    core->view.playback.playing = false;
     go_to(core, core_position(core->document, frame));
 }
 
@@ -298,7 +298,7 @@ void playback_end(struct core *core, int direction)
 
 void playback_change_speed(struct core *core, int direction)
 {
-    double *speed = &core->playback.speed;
+    double *speed = &core->view.playback.speed;
     int at = 0;
     while (at < SPEEDS - 1 && speeds[at] < *speed) at++;
     at += direction;
@@ -314,46 +314,46 @@ void core_flip(struct core *core, int which)
         bool *on;
         const char *said[2]; ///< messages for off and on
     } switches[] = {
-        [SWITCH_SNAP] = {&core->no_snap,
+        [SWITCH_SNAP] = {&core->input.no_snap,
                          {"Snapping on: hold Ctrl to place knots between frames.",
                           "Snapping off: hold Ctrl to snap to frames."}},
-        [SWITCH_AUTO_KEY] = {&core->auto_key,
+        [SWITCH_AUTO_KEY] = {&core->step.auto_key,
                              {"Auto-key off: dragging a body moves it for the whole shot.",
                               "Auto-key on: dragging a body sets knots at the playhead."}},
-        [SWITCH_KEEP] = {&core->keep,
+        [SWITCH_KEEP] = {&core->step.keep,
                          {"Keep off: what follows an edit swings on from it.",
                           "Keep on: the next free knot becomes a pose, and nothing changes beyond it."}},
-        [SWITCH_LOOP] = {&core->playback.looping, {"Playback stops at the end.", "Playback loops."}},
-        [SWITCH_ONION] = {&core->overlays.onion,
+        [SWITCH_LOOP] = {&core->view.playback.looping, {"Playback stops at the end.", "Playback loops."}},
+        [SWITCH_ONION] = {&core->view.overlays.onion,
                           {"Onion skin off.", "Onion skin on: the pose at the knots around the playhead (O)."}},
-        [SWITCH_TRAIL] = {&core->overlays.trail,
+        [SWITCH_TRAIL] = {&core->view.overlays.trail,
                           {"Motion arc off.",
                            "Motion arc on: the path of the tip or liveliest point, one mark per frame (Shift+O)."}},
-        [SWITCH_SHEET] = {&core->curves.sheet,
+        [SWITCH_SHEET] = {&core->view.curves.sheet,
                           {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F7)."}},
-        [SWITCH_PHASE] = {&core->curves.phase,
+        [SWITCH_PHASE] = {&core->view.curves.phase,
                           {"Phase curve off.", "Phase curve on: a quarter of a swing behind the curve."}},
-        [SWITCH_MORE] = {&core->more,
+        [SWITCH_MORE] = {&core->view.more,
                          {"The inspector shows the main sections (F9).", "The inspector shows all sections (F9)."}},
-        [SWITCH_SECONDS] = {&core->curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
-        [SWITCH_NORMALISE] = {&core->curves.normalise,
+        [SWITCH_SECONDS] = {&core->view.curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
+        [SWITCH_NORMALISE] = {&core->view.curves.normalise,
                               {"All curves share one axis again.",
                                "Normalised: every curve is as high as the active one. The axis shows the active "
                                "curve's values."}},
-        [SWITCH_GHOST] = {&core->overlays.ghost,
+        [SWITCH_GHOST] = {&core->view.overlays.ghost,
                           {"Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4)."}},
-        [SWITCH_ORIGINAL] = {&core->overlays.original,
+        [SWITCH_ORIGINAL] = {&core->view.overlays.original,
                              {"Original off.", "Original on: beside the character, its clip without the chains."}},
-        [SWITCH_RECORD] = {&core->record_armed, {"Recording is off.", "The next drag of the body is recorded."}},
-        [SWITCH_PHASE_MAP] = {&core->characters.mapped,
+        [SWITCH_RECORD] = {&core->step.record_armed, {"Recording is off.", "The next drag of the body is recorded."}},
+        [SWITCH_PHASE_MAP] = {&core->focus.characters.mapped,
                               {"Phase map off.", "Phase map on: the colour of a point is its phase."}},
-        [SWITCH_TWIN] = {&core->characters.compare,
+        [SWITCH_TWIN] = {&core->focus.characters.compare,
                          {"Stiff twin off.", "Stiff twin on: beside the character, one that moves without phases."}},
     };
     bool *on = switches[which].on;
     *on = !*on;
-    core->refit_curves |= which == SWITCH_NORMALISE;
-    core->refit_stage |= which == SWITCH_TWIN || which == SWITCH_ORIGINAL;
+    core->view.refit_curves |= which == SWITCH_NORMALISE;
+    core->view.refit_stage |= which == SWITCH_TWIN || which == SWITCH_ORIGINAL;
     core_message(core, false, "%s", switches[which].said[*on]);
 }
 
@@ -364,7 +364,7 @@ void core_set_look(struct core *core, enum look look)
         [LOOK_STIFF] = "Stiff: the same spline without lag",
         [LOOK_CUBIC] = "Cubic: the same knots as a classical spline",
     };
-    core->look = look;
+    core->view.look = look;
     core_message(core, false, "%s", texts[look]);
 }
 
@@ -373,7 +373,7 @@ void core_turn_look(struct core *core, int unused)
     static const enum look next[] = {
         [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
     (void)unused;
-    core_set_look(core, next[core->look]);
+    core_set_look(core, next[core->view.look]);
 }
 
 // --- the scene as it was kept (Shift+K), to compare with (hold K)
@@ -383,18 +383,19 @@ void take_keep(struct core *core, int keep)
     struct take *take = &core->take;
     evaluation_free(&take->evaluation);
     document_destroy(take->document);
-    *take = (struct take){.look = core->look};
+    *take = (struct take){.look = core->view.look};
     core_message(core, false, keep ? "Kept as before. Hold K to see it." : "Before is forgotten.");
     if (!keep) return;
     take->document = document_copy(core->document);
     if (core->evaluation) take->evaluation.solver = core->evaluation->solver;
     if (core->evaluation) take->evaluation.models = core->evaluation->models;
-    evaluation_update(&take->evaluation, take->document, core->look == LOOK_CUBIC);
+    evaluation_update(&take->evaluation, take->document, core->view.look == LOOK_CUBIC);
 }
 
 bool take_is_shown(const struct core *core)
 {
-    return core->take.document && core->held_key == 'K' && !core->drag.owner && !history_is_open(core->history);
+    return core->take.document && core->input.held_key == 'K' && !core->input.drag.owner &&
+           !history_is_open(core->history);
 }
 
 /// Whether a rig is posed as before: its bones are the same ones.

@@ -29,17 +29,17 @@ static double bounded(double pixels, double lo, double hi)
 
 double curves_pixels_per_frame(const struct curves *curves, const struct core *core)
 {
-    return core->layout.plot.w / (curves->view.frame1 - curves->view.frame0);
+    return core->view.layout.plot.w / (curves->view.frame1 - curves->view.frame0);
 }
 
 double curves_pixels_per_value(const struct curves *curves, const struct core *core)
 {
-    return core->layout.plot.h / (curves->view.value1 - curves->view.value0);
+    return core->view.layout.plot.h / (curves->view.value1 - curves->view.value0);
 }
 
 float curves_x(const struct curves *curves, const struct core *core, double frame)
 {
-    const struct rect *plot = &core->layout.plot;
+    const struct rect *plot = &core->view.layout.plot;
     double x = plot->x + (frame - curves->view.frame0) * curves_pixels_per_frame(curves, core);
     return (float)bounded(x, plot->x, plot->x + plot->w);
 }
@@ -57,38 +57,38 @@ int curves_knot_from(const struct curves *curves, const struct core *core, const
 
 float curves_y(const struct curves *curves, const struct core *core, double value)
 {
-    const struct rect *plot = &core->layout.plot;
+    const struct rect *plot = &core->view.layout.plot;
     double y = plot->y + (curves->view.value1 - value) * curves_pixels_per_value(curves, core);
     return (float)bounded(y, plot->y, plot->y + plot->h);
 }
 
 double curves_frame(const struct curves *curves, const struct core *core, double x)
 {
-    return curves->view.frame0 + (x - core->layout.plot.x) / curves_pixels_per_frame(curves, core);
+    return curves->view.frame0 + (x - core->view.layout.plot.x) / curves_pixels_per_frame(curves, core);
 }
 
 double curves_value(const struct curves *curves, const struct core *core, double y)
 {
-    return curves->view.value1 - (y - core->layout.plot.y) / curves_pixels_per_value(curves, core);
+    return curves->view.value1 - (y - core->view.layout.plot.y) / curves_pixels_per_value(curves, core);
 }
 
 /// Keeps the view wider than rounding errors and within a sensible maximum.
 static void keep_sane(struct curves *curves, struct core *core)
 {
-    struct view *view = &curves->view;
+    struct plotted *view = &curves->view;
     double frames = fmin(fmax(view->frame1 - view->frame0, 0.5), 1e8);
     double values = fmin(fmax(view->value1 - view->value0, 1e-9), 1e15);
     double frame = fmin(fmax((view->frame0 + view->frame1) / 2, -1e9), 1e9);
     double value = fmin(fmax((view->value0 + view->value1) / 2, -1e15), 1e15);
     values = fmax(values, fabs(value) * 1e-9);
-    *view = (struct view){frame - frames / 2, frame + frames / 2, value - values / 2, value + values / 2};
-    core->visible = view->value1 - view->value0;
+    *view = (struct plotted){frame - frames / 2, frame + frames / 2, value - values / 2, value + values / 2};
+    core->view.visible = view->value1 - view->value0;
 }
 
 /// An empty view, before anything is included.
-static const struct view NOTHING = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+static const struct plotted NOTHING = {INFINITY, -INFINITY, INFINITY, -INFINITY};
 
-static void include_value(struct view *part, double value)
+static void include_value(struct plotted *part, double value)
 {
     if (!isfinite(value)) return;
     part->value0 = fmin(part->value0, value);
@@ -97,7 +97,7 @@ static void include_value(struct view *part, double value)
 
 /// Widens a view to a knot.
 static void include_knot(const struct curves *curves, const struct core *core, struct knot_place at,
-                         struct view *part)
+                         struct plotted *part)
 {
     const struct value_map map = normal_map(curves, core, at.spline);
     const struct knot *knot = knot_at(core->document, at);
@@ -108,7 +108,7 @@ static void include_knot(const struct curves *curves, const struct core *core, s
 
 /// Widens a view to the drawn values of a curve between two samples.
 static void include_curve(const struct curves *curves, const struct core *core, int spline, double first, double last,
-                          struct view *part)
+                          struct plotted *part)
 {
     const struct evaluation *evaluation = core->evaluation;
     const struct value_map map = normal_map(curves, core, spline);
@@ -122,7 +122,7 @@ static void include_curve(const struct curves *curves, const struct core *core, 
 
 /// The same for the visible part of those samples.
 static void include_seen(const struct curves *curves, const struct core *core, int spline, double first, double last,
-                         struct view *part)
+                         struct plotted *part)
 {
     const double left = floor(core_position(core->document, curves->view.frame0));
     const double right = ceil(core_position(core->document, curves->view.frame1));
@@ -130,7 +130,7 @@ static void include_seen(const struct curves *curves, const struct core *core, i
 }
 
 /// Fits the visible values to those of `part` with a margin; a flat part gets one unit.
-static void show_values(struct view *view, const struct view *part)
+static void show_values(struct plotted *view, const struct plotted *part)
 {
     const double span = part->value1 - part->value0, largest = fmax(fabs(part->value0), fabs(part->value1));
     const double margin = span > 1e-9 * largest && span > 1e-9 ? 0.12 * span : 1;
@@ -140,10 +140,10 @@ static void show_values(struct view *view, const struct view *part)
 }
 
 /// Sets the view within limits, and stops following edits.
-static void view_set(struct curves *curves, struct core *core, struct view view)
+static void view_set(struct curves *curves, struct core *core, struct plotted view)
 {
     curves->following = (struct following){0};
-    core->edited = (struct edited){0};
+    core->step.edited = (struct edited){0};
     curves->view = view;
     keep_sane(curves, core);
 }
@@ -152,10 +152,10 @@ void curves_frame_all(struct curves *curves, struct core *core)
 {
     enum { COLUMNS = 200 };
     const struct document *document = core->document;
-    struct view part = NOTHING, *view = &curves->view;
+    struct plotted part = NOTHING, *view = &curves->view;
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
-        if (core->curves.normalise && s != core->active) continue;
+        if (core->view.curves.normalise && s != core->focus.active) continue;
         for (int k = 0; k < spline->knot_count; k++)
             include_value(&part, core_knot_value(core, s, &spline->knots[k]));
         include_curve(curves, core, s, 0, INFINITY, &part);
@@ -165,22 +165,22 @@ void curves_frame_all(struct curves *curves, struct core *core)
     // The phase curve and the equilibrium of the active spline.
     const double last = document_samples(document) - 1;
     part = *view;
-    for (int column = 0; column <= COLUMNS && core->active >= 0; column++) {
-        const wiggly_value v = evaluation_at(core->evaluation, core->active, last * column / COLUMNS);
+    for (int column = 0; column <= COLUMNS && core->focus.active >= 0; column++) {
+        const wiggly_value v = evaluation_at(core->evaluation, core->focus.active, last * column / COLUMNS);
         include_value(&part, v.y);
         include_value(&part, v.y + v.im);
     }
     const double more = 0.06 * (part.value1 - part.value0);
     const double margin = fmax(0.02 * (document->last_frame - document->first_frame), 0.5);
     view_set(curves, core,
-             (struct view){document->first_frame - margin, document->last_frame + margin,
-                           part.value0 < view->value0 ? part.value0 - more : view->value0,
-                           part.value1 > view->value1 ? part.value1 + more : view->value1});
+             (struct plotted){document->first_frame - margin, document->last_frame + margin,
+                              part.value0 < view->value0 ? part.value0 - more : view->value0,
+                              part.value1 > view->value1 ? part.value1 + more : view->value1});
 }
 
 void curves_frame_selection(struct curves *curves, struct core *core)
 {
-    struct view part = NOTHING;
+    struct plotted part = NOTHING;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) include_knot(curves, core, at, &part);
     if (part.frame0 > part.frame1) {
         curves_frame_all(curves, core);
@@ -199,14 +199,14 @@ void curves_frame_selection(struct curves *curves, struct core *core)
 
 static void shift_view(struct curves *curves, struct core *core, double frames, double values)
 {
-    const struct view *v = &curves->view;
+    const struct plotted *v = &curves->view;
     view_set(curves, core,
-             (struct view){v->frame0 + frames, v->frame1 + frames, v->value0 + values, v->value1 + values});
+             (struct plotted){v->frame0 + frames, v->frame1 + frames, v->value0 + values, v->value1 + values});
 }
 
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value)
 {
-    const struct view *view = &curves->view;
+    const struct plotted *view = &curves->view;
     const double frames = 0.05 * (view->frame1 - view->frame0), values = 0.05 * (view->value1 - view->value0);
     shift_view(curves, core, fmin(frame - frames - view->frame0, 0) + fmax(frame + frames - view->frame1, 0),
                fmin(value - values - view->value0, 0) + fmax(value + values - view->value1, 0));
@@ -219,12 +219,12 @@ void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
 {
-    const struct view *view = &curves->view;
+    const struct plotted *view = &curves->view;
     const double frame = curves_frame(curves, core, x), value = curves_value(curves, core, y);
     view_set(curves, core,
-             (struct view){frame + (view->frame0 - frame) * time_factor, frame + (view->frame1 - frame) * time_factor,
-                           value + (view->value0 - value) * value_factor,
-                           value + (view->value1 - value) * value_factor});
+             (struct plotted){
+                 frame + (view->frame0 - frame) * time_factor, frame + (view->frame1 - frame) * time_factor,
+                 value + (view->value0 - value) * value_factor, value + (view->value1 - value) * value_factor});
 }
 
 static bool has_height(const double range[2]) { return range[1] - range[0] > 1e-12 * fmax(1, fabs(range[0])); }
@@ -235,7 +235,7 @@ static struct value_map map_between(const struct curves *curves, const struct co
     const struct value_map as_it_is = {1, 0};
     const struct curve_cache *cache = &curves->cache;
     bool measured = spline < cache->range_count && active >= 0 && active < cache->range_count;
-    if (!core->curves.normalise || spline == active || !measured) return as_it_is;
+    if (!core->view.curves.normalise || spline == active || !measured) return as_it_is;
     const double *to = cache->range[active], *from = cache->range[spline];
     if (!has_height(to)) return as_it_is;
     if (!has_height(from)) return (struct value_map){1, (to[0] + to[1]) / 2 - from[0]};
@@ -245,7 +245,7 @@ static struct value_map map_between(const struct curves *curves, const struct co
 
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline)
 {
-    return map_between(curves, core, core->active, spline);
+    return map_between(curves, core, core->focus.active, spline);
 }
 
 /// Height of a spline's value in logical pixels, normalised if that is on.
@@ -266,7 +266,7 @@ static const float LIFT = 16, EDGE = 12; ///< pixels: a warning's marker above i
 static bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning,
                           float xy[2])
 {
-    const struct rect plot = core->layout.plot;
+    const struct rect plot = core->view.layout.plot;
     xy[0] = plot.x + EDGE;
     xy[1] = plot.y + EDGE;
     if (warning->kind == WARNING_RATE) return true;
@@ -278,11 +278,11 @@ static bool warning_place(const struct curves *curves, const struct core *core, 
 
 void curves_activate(struct curves *curves, struct core *core, int before)
 {
-    const struct value_map map = map_between(curves, core, before, core->active);
-    const struct view *view = &curves->view;
+    const struct value_map map = map_between(curves, core, before, core->focus.active);
+    const struct plotted *view = &curves->view;
     view_set(curves, core,
-             (struct view){view->frame0, view->frame1, (view->value0 - map.offset) / map.scale,
-                           (view->value1 - map.offset) / map.scale});
+             (struct plotted){view->frame0, view->frame1, (view->value0 - map.offset) / map.scale,
+                              (view->value1 - map.offset) / map.scale});
 }
 
 static const double RATE = 14;     ///< share of the remaining distance per second
@@ -309,13 +309,13 @@ static void widen(double *low, double *high, const double part[2], double widest
 void follow_edits(struct curves *curves, struct core *core)
 {
     struct following *following = &curves->following;
-    const struct edited *edited = &core->edited;
+    const struct edited *edited = &core->step.edited;
     const struct document *document = core->document;
     if (!edited->selection && edited->count == 0) return;
 
     // Frames and values of everything edited since the last frame: selected knots with the curve between their neighbours; of splines only
     // the visible values.
-    struct view part = NOTHING;
+    struct plotted part = NOTHING;
     for (struct knot_place at = SELECTED_START; edited->selection && selected_next(core, &at);) {
         const struct knot *knot = knot_at(document, at);
         const bool has_next = at.knot + 1 < document->splines[at.spline]->knot_count;
@@ -325,32 +325,33 @@ void follow_edits(struct curves *curves, struct core *core)
         include_seen(curves, core, at.spline, first, last, &part);
     }
     for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
-    struct view goal = following->moves ? following->goal : curves->view;
+    struct plotted goal = following->moves ? following->goal : curves->view;
     if (part.frame0 <= part.frame1) widen(&goal.frame0, &goal.frame1, (double[2]){part.frame0, part.frame1}, WIDEST);
     if (part.value0 <= part.value1)
         widen(&goal.value0, &goal.value1, (double[2]){part.value0, part.value1}, INFINITY);
     const bool moves = goal.frame0 != curves->view.frame0 || goal.frame1 != curves->view.frame1 ||
                        goal.value0 != curves->view.value0 || goal.value1 != curves->view.value1;
     *following = (struct following){.moves = moves, .goal = goal};
-    core->edited = (struct edited){0};
+    core->step.edited = (struct edited){0};
 }
 
 void curves_advance(struct curves *curves, struct core *core, double dt)
 {
     keep_ghost(curves, core);
     struct following *following = &curves->following;
-    const bool is_measured = core->drag.owner && core->drag.room == curves; // curves must not rescale during a drag
+    const bool is_measured =
+        core->input.drag.owner && core->input.drag.room == curves; // curves must not rescale during a drag
     if (!following->moves || is_measured) return;
     const double share = 1 - maths_exp(-RATE * fmax(dt, 0));
-    const struct view *view = &curves->view, *goal = &following->goal;
+    const struct plotted *view = &curves->view, *goal = &following->goal;
     const double left[4] = {goal->frame0 - view->frame0, goal->frame1 - view->frame1, goal->value0 - view->value0,
                             goal->value1 - view->value1};
     const double frames = fmax(fabs(left[0]), fabs(left[1])) * curves_pixels_per_frame(curves, core);
     const double values = fmax(fabs(left[2]), fabs(left[3])) * curves_pixels_per_value(curves, core);
     const bool there = fmax(frames, values) < CLOSE;
     curves->view = there ? *goal
-                         : (struct view){view->frame0 + share * left[0], view->frame1 + share * left[1],
-                                         view->value0 + share * left[2], view->value1 + share * left[3]};
+                         : (struct plotted){view->frame0 + share * left[0], view->frame1 + share * left[1],
+                                            view->value0 + share * left[2], view->value1 + share * left[3]};
     keep_sane(curves, core);
     following->moves = !there;
 }
@@ -360,7 +361,7 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
 struct curves *curves_create(void)
 {
     struct curves *curves = need_zeroed(1, sizeof *curves);
-    curves->view = (struct view){0, 120, -1, 1};
+    curves->view = (struct plotted){0, 120, -1, 1};
     return curves;
 }
 
@@ -406,8 +407,9 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
 static void end_box(void *room, struct core *core, bool keep)
 {
     const struct curves *curves = room;
-    if (!keep) selection_copy(&core->selection, &curves->before_box);
-    if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
+    if (!keep) selection_copy(&core->focus.selection, &curves->before_box);
+    if (keep && !core->input.drag.moved && curves->knot_drag.box == BOX_REPLACE)
+        selection_clear(&core->focus.selection);
     if (keep) selected_activate(core);
 }
 
@@ -418,24 +420,24 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     struct hover hover = ruler_pins_hover(curves, core, x, y);
     const struct spline *spline = core_active_spline(core);
     if (hover.thing) return hover;
-    if (rect_contains(core->layout.ruler, x, y)) hover.thing = &thing_ruler;
+    if (rect_contains(core->view.layout.ruler, x, y)) hover.thing = &thing_ruler;
     if (rect_contains(ruler_corner(core), x, y)) hover.thing = &thing_units;
     if (rect_contains(sheet_switch(core), x, y)) hover.thing = &thing_sheet;
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
-    if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
+    if (!rect_contains(core->view.layout.plot, x, y) || !spline) return hover;
     const bool seen = spline_list_seen(core) != NULL;
     const float pointer[2] = {x, y};
     float best = core_reach(core, CURVES_HIT_RADIUS), xy[2];
-    if (seen) nearest_knot(curves, core, core->active, pointer, best, &hover);
+    if (seen) nearest_knot(curves, core, core->focus.active, pointer, best, &hover);
     if (hover.thing) return hover;
     for (int k = 0; k < spline->knot_count && seen; k++) {
         const struct knot *knot = &spline->knots[k];
-        if (!knot->has_slope || !selection_has(&core->selection, knot->id)) continue;
+        if (!knot->has_slope || !selection_has(&core->focus.selection, knot->id)) continue;
         for (int end = 0; end < 2; end++) {
             curves_handle(curves, core, knot, end, xy);
             if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
-                hover =
-                    (struct hover){.thing = &thing_slope, .spline = core->active, .knot = knot->id, .handle = end};
+                hover = (struct hover){
+                    .thing = &thing_slope, .spline = core->focus.active, .knot = knot->id, .handle = end};
         }
     }
     if (hover.thing) return hover;
@@ -456,20 +458,20 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     for (int i = 0; i < 2 && seen; i++) {
         const double value = spline->parameter[limit_of(i)].value;
         if (is_nearest(isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY, &best))
-            hover = (struct hover){.thing = &thing_limit, .spline = core->active, .handle = i};
+            hover = (struct hover){.thing = &thing_limit, .spline = core->focus.active, .handle = i};
     }
     if (hover.thing) return hover;
     // The nearest curve directly above or below, the active one first.
     const double position = core_position(core->document, curves_frame(curves, core, x));
     best = CURVE_REACH;
     for (int i = 0; i < core->document->spline_count; i++) {
-        const int s = i == 0 ? core->active : i <= core->active ? i - 1 : i;
+        const int s = i == 0 ? core->focus.active : i <= core->focus.active ? i - 1 : i;
         if (!spline_list_shows(core, s)) continue;
         const wiggly_value v = evaluation_at(core->evaluation, s, position);
         const float distance = fabsf(y - curves_y_of(curves, core, s, v.y + v.re));
         if (distance >= best) continue;
         best = distance;
-        hover = (struct hover){.thing = s == core->active ? &thing_active_curve : &thing_curve, .spline = s};
+        hover = (struct hover){.thing = s == core->focus.active ? &thing_active_curve : &thing_curve, .spline = s};
     }
     return hover;
 }
@@ -532,7 +534,7 @@ const struct thing thing_sheet = {.cursor = CURSOR_HAND,
 
 static void pan_view(void *room, struct core *core)
 {
-    curves_pan(room, core, core->drag.moved_x, core->drag.moved_y);
+    curves_pan(room, core, core->input.drag.moved_x, core->input.drag.moved_y);
 }
 
 static void move_limit(void *room, struct core *core)
@@ -540,7 +542,7 @@ static void move_limit(void *room, struct core *core)
     const struct curves *curves = room;
     const struct limit_drag *drag = &curves->limit_drag;
     const struct spline *spline = core_active_spline(core);
-    double by = -core->drag.moved_y / curves_pixels_per_value(curves, core);
+    double by = -core->input.drag.moved_y / curves_pixels_per_value(curves, core);
     double value = core_round(drag->value + by, 0.01 / curves_pixels_per_value(curves, core));
     const double other = spline->parameter[limit_of(!drag->handle)].value;
     for (int k = 0; k < spline->knot_count; k++) {
@@ -549,7 +551,7 @@ static void move_limit(void *room, struct core *core)
         value = drag->handle ? fmax(value, knot) : fmin(value, knot);
     }
     if (drag->handle ? value <= other : value >= other) return; // the two limits must not cross, knots or not
-    core_set_parameter(core, core->active, limit_of(drag->handle), value);
+    core_set_parameter(core, core->focus.active, limit_of(drag->handle), value);
 }
 
 static void press_limit(void *room, struct core *core, const struct hover *hover, const struct event *event)
@@ -558,7 +560,7 @@ static void press_limit(void *room, struct core *core, const struct hover *hover
     struct curves *curves = room;
     const enum parameter limit = limit_of(hover->handle);
     drag_begin(core, &owner, curves, parameter_rows[limit].undo, event);
-    core->hover = *hover;
+    core->input.hover = *hover;
     curves->limit_drag = (struct limit_drag){hover->handle, core_active_spline(core)->parameter[limit].value};
 }
 
@@ -571,9 +573,9 @@ const struct thing *const curves_things[] = {&thing_knot,    &thing_mark,  &thin
 void curves_press(struct curves *curves, struct core *core, const struct event *event)
 {
     static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan_view};
-    const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
+    const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->input.space_down);
     if (pans) {
-        core->space_used = core->space_down;
+        core->input.space_used = core->input.space_down;
         drag_begin(core, &panning, curves, NULL, event);
         return;
     }
@@ -582,7 +584,7 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
     if (hover.thing != &thing_pin_time && hover.thing != &thing_ruler) pins_clear(core);
     if (hover.thing) {
         hover.thing->press(curves, core, &hover, event);
-    } else if (rect_contains(core->layout.plot, event->x, event->y)) {
+    } else if (rect_contains(core->view.layout.plot, event->x, event->y)) {
         press_plot(curves, core, &hover, event);
     }
 }
@@ -612,14 +614,14 @@ static struct rect box_rect(const struct drag *drag)
 /// Selects or deselects one spline's knots in the box; on the dope sheet only their time counts.
 static void take_inside(const struct curves *curves, struct core *core, int s)
 {
-    const struct rect box = box_rect(&core->drag);
+    const struct rect box = box_rect(&core->input.drag);
     const struct spline *spline = core->document->splines[s];
     for (int k = curves_knot_from(curves, core, spline, box.x); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         const float x = curves_knot_x(curves, core, knot), y = curves_knot_y(curves, core, s, knot);
         if (x >= box.x + box.w) break;
         if (x >= box.x && (curves->knot_drag.in_sheet || rect_contains(box, x, y)))
-            selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
+            selection_set(&core->focus.selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
     }
 }
 
@@ -627,13 +629,13 @@ static void draw_box(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct document *document = core->document;
-    selection_copy(&core->selection, &curves->before_box);
-    if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
+    selection_copy(&core->focus.selection, &curves->before_box);
+    if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->focus.selection);
     for (int s = 0; curves->knot_drag.in_sheet && s < document->spline_count; s++) {
-        if (sheet_row_in(curves, core, s, box_rect(&core->drag))) take_inside(curves, core, s);
+        if (sheet_row_in(curves, core, s, box_rect(&core->input.drag))) take_inside(curves, core, s);
     }
     if (curves->knot_drag.in_sheet) return;
-    if (spline_list_seen(core)) take_inside(curves, core, core->active);
+    if (spline_list_seen(core)) take_inside(curves, core, core->focus.active);
     for (int i = 0; i < curves->cache.other_count; i++) {
         const int other = curves_other(curves, document, i);
         if (other >= 0) take_inside(curves, core, other);
@@ -643,12 +645,12 @@ static void draw_box(void *room, struct core *core)
 static void show_box(void *room, struct core *core)
 {
     const struct curves *curves = room;
-    const struct rect r = box_rect(&core->drag);
-    if (!core->drag.moved) return;
+    const struct rect r = box_rect(&core->input.drag);
+    if (!core->input.drag.moved) return;
     const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
     uint32_t color = curves->knot_drag.box == BOX_REMOVE ? theme()->error : theme()->playhead;
-    struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
-    drawlist_set_clip(&core->list, curves->knot_drag.in_sheet ? core->layout.sheet : core->layout.plot);
+    struct rect clip = drawlist_push_clip(&core->list, core->view.layout.curves);
+    drawlist_set_clip(&core->list, curves->knot_drag.in_sheet ? core->view.layout.sheet : core->view.layout.plot);
     drawlist_rect(&core->list, r, theme_fade(color, 0.08f));
     drawlist_dashed(&core->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
     drawlist_set_clip(&core->list, clip);
@@ -662,7 +664,7 @@ void box_begin(struct curves *curves, struct core *core, const struct event *eve
     curves->knot_drag = (struct knot_drag){0};
     bool removes = event->mods & (MOD_CTRL | MOD_ALT);
     curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
-    selection_copy(&curves->before_box, &core->selection);
+    selection_copy(&curves->before_box, &core->focus.selection);
 }
 
 // Warnings on the curves: their marks and fixes.
@@ -675,10 +677,11 @@ void warnings_update(struct curves *curves, const struct core *core)
     const struct spline *spline = spline_list_seen(core);
     const struct evaluation *evaluation = core->evaluation;
     const struct document *document = core->document;
-    const bool solved = evaluation && evaluation->samples == document_samples(document), drags = core->drag.owner;
+    const bool solved = evaluation && evaluation->samples == document_samples(document),
+               drags = core->input.drag.owner;
     const uint64_t state[] = {history_revision(core->history),
-                              (uint64_t)(core->active + 1),
-                              (uint64_t)core->look,
+                              (uint64_t)(core->focus.active + 1),
+                              (uint64_t)core->view.look,
                               solved,
                               solved ? evaluation->revision : 0,
                               drags,
@@ -689,8 +692,8 @@ void warnings_update(struct curves *curves, const struct core *core)
     curves->warnings_key = key;
     if (!solved) return;
     memset(curves->fixes, 0, sizeof curves->fixes);
-    if (spline && drags) warnings_add_far(document, evaluation, core->active, warnings);
-    if (spline && !drags) warnings_add(document, evaluation, core->active, warnings);
+    if (spline && drags) warnings_add_far(document, evaluation, core->focus.active, warnings);
+    if (spline && !drags) warnings_add(document, evaluation, core->focus.active, warnings);
     for (int i = 0; i < curves->cache.other_count; i++)
         warnings_add_far(document, evaluation, curves_other(curves, document, i), warnings);
 }
@@ -845,7 +848,7 @@ static void press_warning(void *room, struct core *core, const struct hover *hov
     char text[FIX_TEXT + 8];
     core_activate(core, warning.spline);
     if (!core_active_spline(core) || !core_step(core, cures[warning.kind].label, 0)) return;
-    const bool good = fix.remedy && remedy_apply(fix.remedy, core->document, &warning, fix.text, &core->error);
+    const bool good = fix.remedy && remedy_apply(fix.remedy, core->document, &warning, fix.text, &core->step.error);
     snprintf(text, sizeof text, "Done: %s.", fix.text);
     if (good || !fix.remedy) core_message(core, false, "%s", good ? text : NO_REMEDY);
 }
@@ -882,8 +885,8 @@ const struct thing thing_warning = {.cursor = CURSOR_HAND,
 /// The warning under the pointer, or -1.
 static int hovered_warning(const struct curves *curves, const struct core *core)
 {
-    const int index = core->hover.handle;
-    return core->hover.thing == &thing_warning && index < curves->warnings.count ? index : -1;
+    const int index = core->input.hover.handle;
+    return core->input.hover.thing == &thing_warning && index < curves->warnings.count ? index : -1;
 }
 
 void warnings_show(const struct curves *curves, struct core *core)
@@ -908,11 +911,11 @@ void warnings_show_words(struct curves *curves, struct core *core)
     if (index < 0 || !warning_place(curves, core, &curves->warnings.list[index], xy)) return;
     char what[WARNING_SENTENCE], click[FIX_TEXT + 16] = "";
     warning_say(&curves->warnings.list[index], what);
-    if (!core->drag.owner) {
+    if (!core->input.drag.owner) {
         const struct fix *fix = fix_of(curves, core, index);
         snprintf(click, sizeof click, fix->remedy ? "Click to %s." : NO_REMEDY, fix->text);
     }
-    const struct rect panel = core->layout.curves;
+    const struct rect panel = core->view.layout.curves;
     float width =
         fmaxf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, what), font_width(FONT_LABEL, THEME_TEXT_NORMAL, click));
     float w = fminf(width + 2 * PAD, panel.w - 16), h = 2 * LINE + PAD;

@@ -21,7 +21,7 @@ static const double LENGTH_SLACK = 8;        ///< pixels; a longer pull also cha
 static void collect_knots(const struct curves *curves, struct core *core)
 {
     core_collect(core, curves->knot_drag.ripple);
-    core->drag.label = core->originals.count == 1 ? "Move knot" : "Move knots";
+    core->input.drag.label = core->step.originals.count == 1 ? "Move knot" : "Move knots";
 }
 
 /// Moves knots in time; selected ones also in value, measured in values of the active spline.
@@ -37,7 +37,7 @@ static struct knot moved_knot(const void *how, const struct original *original)
     const double scale = normal_map(moving->curves, moving->core, original->spline).scale;
     struct knot knot = original->knot;
     knot.frame += moving->frames;
-    if (moving->up != 0 && !knot.still && selection_has(&moving->core->selection, knot.id))
+    if (moving->up != 0 && !knot.still && selection_has(&moving->core->focus.selection, knot.id))
         knot.value = core_round(knot.value + moving->up / scale, moving->resolution / scale);
     return knot;
 }
@@ -46,8 +46,8 @@ static struct knot moved_knot(const void *how, const struct original *original)
 static void apply_knots(void *of, struct core *core)
 {
     struct curves *curves = of;
-    const struct drag *drag = &core->drag;
-    const struct originals *originals = &core->originals;
+    const struct drag *drag = &core->input.drag;
+    const struct originals *originals = &core->step.originals;
     const struct document *document = core->document;
     const double pixels = curves_pixels_per_value(curves, core);
     char why[STOPPED_SIZE] = "";
@@ -90,8 +90,8 @@ static void apply_knots(void *of, struct core *core)
 static void apply_slope(void *of, struct core *core)
 {
     const struct curves *curves = of;
-    const struct drag *drag = &core->drag;
-    const struct knot *knot = &core->originals.list[0].knot;
+    const struct drag *drag = &core->input.drag;
+    const struct knot *knot = &core->step.originals.list[0].knot;
     float end[2];
     curves_handle(curves, core, knot, curves->knot_drag.handle, end);
     double x = curves_knot_x(curves, core, knot);
@@ -101,12 +101,12 @@ static void apply_slope(void *of, struct core *core)
     double seconds = across / curves_pixels_per_frame(curves, core) / core->document->fps;
     struct knot turned = *knot;
     turned.slope =
-        core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
+        core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->view.visible);
     double length = handle_length(knot->stiffness), longer = maths_hypot(across, down) - length;
     if (fabs(longer) > LENGTH_SLACK) {
         turned.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
     }
-    core_put_knot(core, core->active, &turned);
+    core_put_knot(core, core->focus.active, &turned);
 }
 
 static enum drag_answer knots_event(void *room, struct core *core, const struct event *event)
@@ -114,11 +114,11 @@ static enum drag_answer knots_event(void *room, struct core *core, const struct 
     struct knot_drag *drag = &((struct curves *)room)->knot_drag;
     bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
     if (!key) return DRAG_PASSES;
-    if (event->key != 'R') return drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+    if (event->key != 'R') return drag_lock(&core->input.drag, event->key) ? DRAG_USED : DRAG_PASSES;
     drag_restart(core);
     drag->ripple = !drag->ripple; // the later knots keep their distances to the dragged ones
     drag->free_frames = 0;
-    core->drag.stale = true;
+    core->input.drag.stale = true;
     collect_knots(room, core);
     core_message(core, false,
                  drag->ripple ? "Ripple on: later knots move too (R turns it off)."
@@ -131,11 +131,11 @@ static void end_knots(void *room, struct core *core, bool keep)
 {
     struct curves *curves = room;
     if (!keep) return;
-    if (core->drag.moved) {
+    if (core->input.drag.moved) {
         core_edited(core, -1);
     } else if (curves->knot_drag.collapse) {
-        selection_clear(&core->selection);
-        selection_set(&core->selection, core->drag.knot, true);
+        selection_clear(&core->focus.selection);
+        selection_set(&core->focus.selection, core->input.drag.knot, true);
     }
 }
 
@@ -151,32 +151,33 @@ static void press_knot(void *room, struct core *core, const struct hover *hover,
                                             .show = show_moved_knots};
     struct curves *curves = room;
     unsigned id = hover->knot;
-    bool selected = selection_has(&core->selection, id);
+    bool selected = selection_has(&core->focus.selection, id);
     core_turn_to(core, hover->spline);
-    core->limb = 0;
+    core->focus.limb = 0;
     if (event->clicks == 2) {
         const struct spline *spline = core->document->splines[hover->spline];
         playback_seek(core, spline->knots[spline_find_id(spline, id)].frame);
         return;
     }
     if (event->mods & MOD_SHIFT) {
-        selection_set(&core->selection, id, !selected);
+        selection_set(&core->focus.selection, id, !selected);
         selected_activate(core);
         if (selected) return;
     } else if (!selected) {
-        selection_clear(&core->selection);
-        selection_set(&core->selection, id, true);
+        selection_clear(&core->focus.selection);
+        selection_set(&core->focus.selection, id, true);
     }
     drag_begin(core, &owner, curves, NULL, event);
-    core->drag.knot = id;
+    core->input.drag.knot = id;
     curves->knot_drag = (struct knot_drag){.collapse = selected && !(event->mods & MOD_SHIFT)};
     collect_knots(curves, core);
-    core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // the dope sheet has only time
+    core->input.drag.lock_x =
+        rect_contains(core->view.layout.sheet, event->x, event->y); // the dope sheet has only time
 }
 
 bool curves_in_plot(const struct curves *curves, const struct core *core, double frame, double value, float xy[2])
 {
-    const struct rect *plot = &core->layout.plot;
+    const struct rect *plot = &core->view.layout.plot;
     xy[0] = curves_x(curves, core, frame);
     xy[1] = curves_y(curves, core, value);
     return xy[0] >= plot->x && xy[1] >= plot->y && xy[0] <= plot->x + plot->w && xy[1] <= plot->y + plot->h;
@@ -206,10 +207,10 @@ static void press_slope(void *room, struct core *core, const struct hover *hover
     struct curves *curves = room;
     assert(spline);
     drag_begin(core, &owner, curves, "Change slope", event);
-    core->drag.knot = hover->knot;
+    core->input.drag.knot = hover->knot;
     curves->knot_drag = (struct knot_drag){.handle = hover->handle};
-    core->originals.count = 0;
-    originals_add(&core->originals, core->active, &spline->knots[spline_find_id(spline, hover->knot)]);
+    core->step.originals.count = 0;
+    originals_add(&core->step.originals, core->focus.active, &spline->knots[spline_find_id(spline, hover->knot)]);
 }
 
 static bool find_slope(void *room, const struct core *core, const struct target *target, float xy[2])
@@ -236,7 +237,7 @@ enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
 
 void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths)
 {
-    const double up = 0.01 * hundredths * core->visible;
+    const double up = 0.01 * hundredths * core->view.visible;
     struct moving moving = {curves, core, frames, up, 0.01 * fabs(up)};
     enum room room = ROOM_FREE;
     char why[STOPPED_SIZE] = "";
@@ -246,12 +247,12 @@ void curves_nudge(const struct curves *curves, struct core *core, double frames,
         moving.frames += frames;
     if (room == ROOM_OUTSIDE) moving.frames = 0;
     if (room == ROOM_OUTSIDE) core_stopped(core, why);
-    if (core->originals.count == 0 || (moving.frames == 0 && up == 0)) return;
+    if (core->step.originals.count == 0 || (moving.frames == 0 && up == 0)) return;
     if (room == ROOM_FREE) why[0] = 0;
     if (!core_step(core, "Nudge knots", core_merge_key(core, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE))) return;
     originals_put(core, moved_knot, &moving, why);
     if (*why) core_stopped(core, why);
-    core->nudged_seconds = GHOST_SECONDS;
+    core->step.nudged_seconds = GHOST_SECONDS;
     core_edited(core, -1);
 }
 
@@ -281,8 +282,8 @@ static void measure_selection(const struct curves *curves, const struct core *co
 {
     frames[0] = values[0] = INFINITY;
     frames[1] = values[1] = -INFINITY;
-    for (int i = 0; i < core->originals.count; i++) {
-        const struct original *original = &core->originals.list[i];
+    for (int i = 0; i < core->step.originals.count; i++) {
+        const struct original *original = &core->step.originals.list[i];
         const struct value_map map = normal_map(curves, core, original->spline);
         const double value = map.scale * original->value + map.offset;
         frames[0] = fmin(frames[0], original->knot.frame);
@@ -303,8 +304,9 @@ static void place_pivot(struct curves *curves, const struct core *core)
     const double side[2] = {frames[left], values[!top]};
     scaling->edge[0] = frames[!left];
     scaling->edge[1] = values[top];
-    for (int i = 0; held && i < core->originals.count; i++) { // the knot at the held edge stays under the pointer
-        const struct original *original = &core->originals.list[i];
+    for (int i = 0; held && i < core->step.originals.count;
+         i++) { // the knot at the held edge stays under the pointer
+        const struct original *original = &core->step.originals.list[i];
         const struct value_map map = normal_map(curves, core, original->spline);
         if (map.scale * original->value + map.offset != scaling->edge[1]) continue;
         scaling->balance[1] = map.scale * original->equilibrium + map.offset;
@@ -337,7 +339,7 @@ static void say_factor(char out[128], const char *what, double factor, const cha
 static void say_scale(struct curves *curves, const struct core *core)
 {
     struct scaling *scaling = &curves->scaling;
-    const struct drag *drag = &core->drag;
+    const struct drag *drag = &core->input.drag;
     const char *keys = scaling->handle < 0 ? "X, Y;  Enter, Esc" : box_corner(scaling->handle) ? "X, Y;  Esc" : "Esc";
     char time[128] = "", value[128] = "";
     if (!drag->lock_y) say_factor(time, "time", scaling->by.time, scaling->stopped[0]);
@@ -375,7 +377,7 @@ static struct knot scaled_knot(const void *how, const struct original *original)
     const double steeper = by.value / by.time;
     const double frame = scaling->frame + by.time * (original->knot.frame - scaling->frame);
     struct knot to = original->knot;
-    if (by.time != 1) to.frame = core->drag.snap ? round(frame) : frame;
+    if (by.time != 1) to.frame = core->input.drag.snap ? round(frame) : frame;
     if (by.value != 1 && !to.still) {
         const struct value_map map = normal_map(curves, core, original->spline);
         const double drawn = (scaling->value - map.offset) / map.scale;
@@ -384,7 +386,7 @@ static struct knot scaled_knot(const void *how, const struct original *original)
         to.value = core_round(pivot + by.value * (original->value - pivot), resolution);
     }
     to.phase *= by.time < 0 ? -by.value : by.value; // time runs backwards, so the swing does
-    if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, FINE_SLOPE * core->visible);
+    if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, FINE_SLOPE * core->view.visible);
     return to;
 }
 
@@ -392,8 +394,8 @@ static void scale_knots(void *room, struct core *core)
 {
     struct curves *curves = room;
     struct scaling *scaling = &curves->scaling;
-    const struct drag *drag = &core->drag;
-    const struct originals *originals = &core->originals;
+    const struct drag *drag = &core->input.drag;
+    const struct originals *originals = &core->step.originals;
     const struct scale scale = {curves, core};
     const double x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value);
     struct factors by;
@@ -459,7 +461,8 @@ static enum drag_answer scale_event(void *room, struct core *core, const struct 
             place_pivot(curves, core);
         } else if (event->key == KEY_BACKSPACE) {
             if (length > 0) scaling->typed[length - 1] = 0;
-        } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) || !drag_lock(&core->drag, event->key)) {
+        } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) ||
+                   !drag_lock(&core->input.drag, event->key)) {
             return DRAG_USED;
         }
         break;
@@ -474,7 +477,7 @@ static enum drag_answer scale_event(void *room, struct core *core, const struct 
         return DRAG_PASSES;
     }
     drag_start_moving(core);
-    core->drag.stale = true;
+    core->input.drag.stale = true;
     return DRAG_USED;
 }
 
@@ -486,8 +489,8 @@ static void scale_show(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct scaling *scaling = &curves->scaling;
-    const struct drag *drag = &core->drag;
-    const struct rect clip = drawlist_push_clip(&core->list, core->layout.plot);
+    const struct drag *drag = &core->input.drag;
+    const struct rect clip = drawlist_push_clip(&core->list, core->view.layout.plot);
     scale_box_show(curves, core, true);
     const float pivot_x = curves_x(curves, core, scaling->frame), pivot_y = curves_y(curves, core, scaling->value);
     const float arm = 7, across[] = {pivot_x - arm, pivot_y, pivot_x + arm, pivot_y},
@@ -515,7 +518,7 @@ static void scale_show(void *room, struct core *core)
         width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, text[count])));
         count++;
     }
-    const struct rect panel = core->layout.curves;
+    const struct rect panel = core->view.layout.curves;
     const float w = width + 2 * TAG_PAD, h = (float)(count * LINE + TAG_PAD);
     const float right = panel.x + panel.w - MARGIN - w, bottom = panel.y + panel.h - MARGIN - h;
     const struct rect box = {roundf(fmaxf(panel.x + MARGIN, fminf(drag->x + BESIDE, right))),
@@ -540,36 +543,36 @@ static void begin_scale(struct curves *curves, struct core *core, enum pivot piv
     *scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
     curves->knot_drag = (struct knot_drag){0};
     core->message.text[0] = 0;
-    core->hover = (struct hover){.thing = NULL};
+    core->input.hover = (struct hover){.thing = NULL};
 
     // The equilibria before any edit changes them.
     measure_selection(curves, core, frames, values);
-    for (int i = 0; i < core->originals.count; i++) {
-        struct original *original = &core->originals.list[i];
+    for (int i = 0; i < core->step.originals.count; i++) {
+        struct original *original = &core->step.originals.list[i];
         const int sample = document_sample(core->document, original->knot.frame);
         original->equilibrium = evaluation_at(evaluation, original->spline, sample).y;
     }
-    const double position = round(core->playback.position), middle = (frames[0] + frames[1]) / 2;
+    const double position = round(core->view.playback.position), middle = (frames[0] + frames[1]) / 2;
     scaling->playhead[0] = document_frame(core->document, (int)position);
-    scaling->playhead[1] = evaluation_at(evaluation, core->active, position).y;
+    scaling->playhead[1] = evaluation_at(evaluation, core->focus.active, position).y;
     scaling->balance[0] = middle;
-    scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(core->document, middle)).y;
+    scaling->balance[1] = evaluation_at(evaluation, core->focus.active, core_position(core->document, middle)).y;
     place_pivot(curves, core);
-    core->drag.hint = scaling->sentence;
+    core->input.drag.hint = scaling->sentence;
     say_scale(curves, core);
 }
 
 void curves_scale(struct curves *curves, struct core *core, int about_equilibrium)
 {
     core_collect(core, false);
-    if (core->originals.count == 0) {
+    if (core->step.originals.count == 0) {
         core_message(core, false, "Select the knots to scale first.");
         return;
     }
-    const struct event event = {.button = BUTTON_LEFT, .x = core->pointer_x, .y = core->pointer_y};
+    const struct event event = {.button = BUTTON_LEFT, .x = core->input.pointer_x, .y = core->input.pointer_y};
     drag_begin(core, &scale_owner, curves, "Scale knots", &event);
-    core->drag.lock_y = about_equilibrium;
-    const enum pivot pivot = core->originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
+    core->input.drag.lock_y = about_equilibrium;
+    const enum pivot pivot = core->step.originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
     begin_scale(curves, core, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
 }
 
@@ -580,10 +583,10 @@ static void press_box(void *room, struct core *core, const struct hover *hover, 
     const int handle = hover->handle;
     core_collect(core, false);
     drag_begin(core, &scale_owner, curves, "Scale knots", event);
-    core->drag.lock_x = box_row(handle) == 0;
-    core->drag.lock_y = box_column(handle) == 0;
+    core->input.drag.lock_x = box_row(handle) == 0;
+    core->input.drag.lock_y = box_column(handle) == 0;
     begin_scale(curves, core, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
-    core->hover = (struct hover){.thing = &thing_box, .spline = core->active, .handle = handle};
+    core->input.hover = (struct hover){.thing = &thing_box, .spline = core->focus.active, .handle = handle};
 }
 
 static const float BOX_PAD = 12;     ///< from the outermost knots: outside their own targets
@@ -614,7 +617,7 @@ static bool find_knot_box(const struct curves *curves, const struct core *core, 
     }
     if (count < 2) return false;
     const struct rect whole = {left - BOX_PAD, top - BOX_PAD, right - left + 2 * BOX_PAD, bottom - top + 2 * BOX_PAD};
-    *box = (struct knot_box){rect_intersect(whole, rect_inset(core->layout.plot, INSIDE)), right - left >= LEAST,
+    *box = (struct knot_box){rect_intersect(whole, rect_inset(core->view.layout.plot, INSIDE)), right - left >= LEAST,
                              bottom - top >= LEAST};
     return box->area.w > 0 && box->area.h > 0;
 }
@@ -657,7 +660,7 @@ void scale_box_hover(const struct curves *curves, const struct core *core, float
     for (int i = 0; i < BOX_HANDLES; i++) {
         if (!handle_place(&box, i, xy)) continue;
         if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
-            *hover = (struct hover){.thing = &thing_box, .spline = core->active, .handle = i};
+            *hover = (struct hover){.thing = &thing_box, .spline = core->focus.active, .handle = i};
     }
 }
 
@@ -669,7 +672,7 @@ void scale_box_show(const struct curves *curves, struct core *core, bool handles
     for (int i = 0; i < BOX_HANDLES && handles; i++) {
         float xy[2];
         if (!handle_place(&box, i, xy)) continue;
-        const bool hot = core->hover.thing == &thing_box && core->hover.handle == i;
+        const bool hot = core->input.hover.thing == &thing_box && core->input.hover.handle == i;
         const float size = hot ? HANDLE + 3 : HANDLE;
         const struct rect r = {roundf(xy[0] - size / 2), roundf(xy[1] - size / 2), size, size};
         drawlist_rounded(&core->list, r, 1.5f, hot ? theme()->playhead : theme()->panel);
@@ -699,34 +702,34 @@ static int list_rows(const struct core *core, int first, int *splines, int most)
 void sheet_update(struct curves *curves, struct core *core)
 {
     struct dope_sheet *sheet = &curves->sheet;
-    const float room = core->layout.curves.h - core->layout.ruler.h - LEAST_PLOT - 2 * SHEET_PAD;
-    const int total = core->curves.sheet ? list_rows(core, 0, NULL, 0) : 0;
+    const float room = core->view.layout.curves.h - core->view.layout.ruler.h - LEAST_PLOT - 2 * SHEET_PAD;
+    const int total = core->view.curves.sheet ? list_rows(core, 0, NULL, 0) : 0;
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
-    if (sheet->active != core->active_id) { // scroll its row into view
+    if (sheet->active != core->focus.active_id) { // scroll its row into view
         int active = 0;
-        for (int s = 0; s < core->active; s++) active += spline_list_shows(core, s);
+        for (int s = 0; s < core->focus.active; s++) active += spline_list_shows(core, s);
         sheet->list.view = (float)rows;
-        if (spline_list_shows(core, core->active)) ui_list_show(&sheet->list, (float)active, 1);
-        sheet->active = core->active_id;
+        if (spline_list_shows(core, core->focus.active)) ui_list_show(&sheet->list, (float)active, 1);
+        sheet->active = core->focus.active_id;
     }
     sheet->rows = rows;
     ui_list_fit(&sheet->list, (float)rows, (float)total);
     list_rows(core, (int)sheet->list.offset, sheet->spline, rows);
     const float height = rows > 0 ? (float)(rows * ROW + 2 * SHEET_PAD) : 0;
-    if (core->layout.sheet_height == height) return;
-    core->layout.sheet_height = height;
+    if (core->view.layout.sheet_height == height) return;
+    core->view.layout.sheet_height = height;
     core_layout(core);
 }
 
 static float row_y(const struct core *core, int row)
 {
-    return core->layout.sheet.y + SHEET_PAD + ((float)row + 0.5f) * ROW;
+    return core->view.layout.sheet.y + SHEET_PAD + ((float)row + 0.5f) * ROW;
 }
 
 struct rect sheet_area(const struct core *core)
 {
-    const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
+    const struct rect *sheet = &core->view.layout.sheet, *panel = &core->view.layout.curves;
     return (struct rect){panel->x, sheet->y, panel->w, sheet->h};
 }
 
@@ -738,12 +741,12 @@ struct rect sheet_switch(const struct core *core)
 
 struct hover sheet_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
-    const int row = (int)floorf((y - core->layout.sheet.y - SHEET_PAD) / ROW);
+    const int row = (int)floorf((y - core->view.layout.sheet.y - SHEET_PAD) / ROW);
     const int at = row < 0 ? 0 : row >= curves->sheet.rows ? curves->sheet.rows - 1 : row;
     const int spline = at >= 0 ? curves->sheet.spline[at] : -1;
     const int s = spline < core->document->spline_count ? spline : -1;
     struct hover hover = {.thing = s >= 0 ? &thing_row : NULL, .spline = s};
-    if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
+    if (s < 0 || !rect_contains(core->view.layout.sheet, x, y)) return hover;
     nearest_knot(curves, core, s, (const float[2]){x, NAN}, MARK_REACH, &hover);
     return hover;
 }
@@ -753,7 +756,7 @@ static void press_row(void *room, struct core *core, const struct hover *hover, 
 {
     struct curves *curves = room;
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
-    const bool inside = rect_contains(core->layout.sheet, event->x, event->y);
+    const bool inside = rect_contains(core->view.layout.sheet, event->x, event->y);
     if (!keeps || event->clicks == 2) core_choose(core, hover->spline);
     if (!inside) return;
     if (event->clicks == 2) {
@@ -786,7 +789,7 @@ static bool find_mark(void *room, const struct core *core, const struct target *
         if (curves->sheet.spline[row] != target->spline) continue;
         xy[0] = curves_knot_x(curves, core, target->knot);
         xy[1] = row_y(core, row);
-        return rect_contains(core->layout.sheet, xy[0], xy[1]);
+        return rect_contains(core->view.layout.sheet, xy[0], xy[1]);
     }
     return false;
 }
@@ -802,20 +805,21 @@ void sheet_show(const struct curves *curves, struct core *core)
 {
     const struct document *document = core->document;
     const struct dope_sheet *sheet = &curves->sheet;
-    const struct rect *area = &core->layout.sheet, *panel = &core->layout.curves;
+    const struct rect *area = &core->view.layout.sheet, *panel = &core->view.layout.curves;
     // The triangle in the ruler's corner points down while the sheet is open.
     const struct rect r = sheet_switch(core);
     const float x = r.x + 8, y = r.y + r.h / 2, a = 3.5f;
     const float right[] = {x - a + 1, y - a, x + a, y, x - a + 1, y + a},
                 down[] = {x - a, y - a + 1, x + a, y - a + 1, x, y + a};
-    drawlist_convex(&core->list, core->curves.sheet ? down : right, 3,
-                    core->hover.thing == &thing_sheet ? theme()->text : theme()->text_dim);
+    drawlist_convex(&core->list, core->view.curves.sheet ? down : right, 3,
+                    core->input.hover.thing == &thing_sheet ? theme()->text : theme()->text_dim);
     if (area->h <= 0) return;
     for (int row = 0; row < sheet->rows; row++) {
         const int s = sheet->spline[row];
         if (s >= document->spline_count) continue; // an undo in this frame removed it
         const struct spline *spline = document->splines[s];
-        const bool active = s == core->active, hot = core->hover.thing == &thing_row && core->hover.spline == s;
+        const bool active = s == core->focus.active,
+                   hot = core->input.hover.thing == &thing_row && core->input.hover.spline == s;
         const float middle = row_y(core, row), left = area->x + area->w + 6;
         const uint32_t color = spline_list_color(document, s);
         const struct rect band = {area->x, middle - ROW / 2.0f, area->w, ROW};

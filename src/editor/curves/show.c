@@ -81,7 +81,8 @@ static void draw_active(struct curves *curves, const struct core *core)
     int rig, number;
     const struct channel *channel = core_active_channel(core, &rig, &number);
     double turn[CURVES_FAN][2];
-    bool fans = core->look == LOOK_WIGGLY && channel && channel->spline == core->active && axis_bends(channel->axis);
+    bool fans = core->view.look == LOOK_WIGGLY && channel && channel->spline == core->focus.active &&
+                axis_bends(channel->axis);
     if (spline && fans) {
         const double end = fmin(cache->first + cache->by * cache->count, INT_MAX);
         const int knots = spline_lower_bound(core->document, spline, (int)end) -
@@ -96,7 +97,7 @@ static void draw_active(struct curves *curves, const struct core *core)
         turn[i][1] = maths_sin(lag);
     }
     for (int c = 0; c < cache->count; c++) {
-        wiggly_value v = evaluation_at(evaluation, core->active, cache->position[c]);
+        wiggly_value v = evaluation_at(evaluation, core->focus.active, cache->position[c]);
         float x = curves_x(curves, core, frame_of(core->document, cache->position[c]));
         memcpy(cache->re[c], (float[2]){x, curves_y(curves, core, v.y + v.re)}, sizeof cache->re[c]);
         memcpy(cache->im[c], (float[2]){x, curves_y(curves, core, v.y + v.im)}, sizeof cache->im[c]);
@@ -109,7 +110,7 @@ static void draw_active(struct curves *curves, const struct core *core)
     cache->band = is_band(cache, cache->re);
     if (!cache->band) return;
     cache->fan_count = 0; // the copies would fill the same band
-    draw_band(curves, core, core->active, (struct value_map){1, 0}, cache->re);
+    draw_band(curves, core, core->focus.active, (struct value_map){1, 0}, cache->re);
 
     // Im x as a band, from at most about sixteen samples a column.
     const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = evaluation->samples - 1;
@@ -117,7 +118,7 @@ static void draw_active(struct curves *curves, const struct core *core)
         const double middle = cache->first + cache->by * c;
         double most = c % 2 ? -INFINITY : INFINITY;
         for (double at = fmax(ceil(middle - reach), 0); at <= fmin(middle + reach, last); at += step) {
-            const wiggly_value v = evaluation_at(evaluation, core->active, at);
+            const wiggly_value v = evaluation_at(evaluation, core->focus.active, at);
             most = c % 2 ? fmax(most, v.y + v.im) : fmin(most, v.y + v.im);
         }
         cache->im[c][0] = cache->re[c][0];
@@ -132,14 +133,14 @@ static void curves_update(struct curves *curves, struct core *core)
     const struct document *document = core->document;
     const struct evaluation *evaluation = core->evaluation;
     uint64_t revision[2] = {history_revision(core->history), evaluation ? evaluation->revision : 0};
-    int choice[3] = {core->active, (int)core->look, core->curves.normalise};
-    bool held = core->curves.normalise && core->drag.owner != NULL;
+    int choice[3] = {core->focus.active, (int)core->view.look, core->view.curves.normalise};
+    bool held = core->view.curves.normalise && core->input.drag.owner != NULL;
     uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
     key = hash_bytes(key, choice, sizeof choice);
     key = hash_bytes(key, &held, sizeof held);
-    key = hash_bytes(key, &core->visibility, sizeof core->visibility);
+    key = hash_bytes(key, &core->view.visibility, sizeof core->view.visibility);
     key = hash_bytes(key, &curves->view, sizeof curves->view);
-    key = hash_bytes(key, &core->layout.plot, sizeof core->layout.plot);
+    key = hash_bytes(key, &core->view.layout.plot, sizeof core->view.layout.plot);
     if (key == 0) key = 1;
     if (key == cache->key) return;
     cache->key = key;
@@ -155,7 +156,7 @@ static void curves_update(struct curves *curves, struct core *core)
     }
     const double first = cache->first, by = cache->by;
     for (int c = 0; c < cache->count; c++)
-        cache->position[c] = outermost(evaluation, core->active, first + by * c, by, c % 2);
+        cache->position[c] = outermost(evaluation, core->focus.active, first + by * c, by, c % 2);
 
     // The nearest column moves onto each knot of the active spline. Where knots share one, its lowest and highest samples show them.
     const struct spline *spline = cache->count > 0 ? core_active_spline(core) : NULL;
@@ -173,7 +174,7 @@ static void curves_update(struct curves *curves, struct core *core)
     draw_active(curves, core);
 
     // What normalised curves cover. During a drag it stays, so that the other curves hold still.
-    if (core->curves.normalise && !core->drag.owner && evaluation) {
+    if (core->view.curves.normalise && !core->input.drag.owner && evaluation) {
         cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
         for (int i = 0; i < 2 * cache->range_count; i++) {
             const int sample = evaluation_extreme(evaluation, i / 2, 0, evaluation->samples - 1, i % 2);
@@ -182,7 +183,7 @@ static void curves_update(struct curves *curves, struct core *core)
     }
     cache->other_count = 0;
     for (int s = 0; s < document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
-        if (s == core->active || !spline_list_shows(core, s)) continue;
+        if (s == core->focus.active || !spline_list_shows(core, s)) continue;
         polyline *line = &cache->others[cache->other_count];
         const struct value_map map = normal_map(curves, core, s);
         cache->other_spline[cache->other_count] = s;
@@ -202,13 +203,13 @@ void keep_ghost(struct curves *curves, const struct core *core)
 {
     struct ghost *ghost = &curves->ghost;
     const bool was_shown = ghost->is_shown;
-    ghost->is_shown = core->drag.moved && core->drag.label;
+    ghost->is_shown = core->input.drag.moved && core->input.drag.label;
     if (was_shown || !ghost->is_shown) return;
     const struct curve_cache *cache = &curves->cache;
     ghost->count = cache->count;
     ghost->band = cache->band;
     for (int c = 0; c < cache->count; c++) {
-        wiggly_value v = evaluation_at(core->evaluation, core->active, cache->position[c]);
+        wiggly_value v = evaluation_at(core->evaluation, core->focus.active, cache->position[c]);
         ghost->frame[c] = frame_of(core->document, cache->position[c]);
         ghost->value[c] = v.y + v.re;
         if (!cache->band) continue;
@@ -246,12 +247,12 @@ static struct grid_step round_step(double least)
 }
 
 /// Rounds to device pixels, so that hairlines stay sharp at every scale.
-static float sharp(const struct core *core, float at) { return roundf(at * core->scale) / core->scale; }
+static float sharp(const struct core *core, float at) { return roundf(at * core->view.scale) / core->view.scale; }
 
 /// The panels that share the time axis: dope sheet and plot.
 static struct rect field_of(const struct core *core)
 {
-    const struct rect *sheet = &core->layout.sheet, *plot = &core->layout.plot;
+    const struct rect *sheet = &core->view.layout.sheet, *plot = &core->view.layout.plot;
     return (struct rect){plot->x, sheet->y, plot->w, sheet->h + plot->h};
 }
 
@@ -264,14 +265,14 @@ static void vertical(const struct curves *curves, struct core *core, double fram
 
 static void horizontal(const struct curves *curves, struct core *core, double value, uint32_t color)
 {
-    const struct rect *plot = &core->layout.plot;
+    const struct rect *plot = &core->view.layout.plot;
     float y = sharp(core, curves_y(curves, core, value));
     drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1}, color);
 }
 
 struct rect ruler_corner(const struct core *core)
 {
-    const struct layout *layout = &core->layout;
+    const struct layout *layout = &core->view.layout;
     return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
 }
 
@@ -281,7 +282,7 @@ static void end_range(void *room, struct core *core, bool keep)
     const double *before = ((const struct curves *)room)->range_before;
     if (!keep) {
         playback_choose(core, before[0], before[1]);
-    } else if (!core->drag.moved) {
+    } else if (!core->input.drag.moved) {
         playback_choose(core, -INFINITY, INFINITY);
         playback_say_range(core);
     }
@@ -290,14 +291,14 @@ static void end_range(void *room, struct core *core, bool keep)
 static void tag_text(const struct core *core, char text[32])
 {
     double frame = round(core_frame(core)) + 0.0; /* the one that I would insert at */
-    snprintf(text, 32, core->curves.seconds ? "%.2f" : "%.0f",
-             core->curves.seconds ? frame / core->document->fps : frame);
+    snprintf(text, 32, core->view.curves.seconds ? "%.2f" : "%.0f",
+             core->view.curves.seconds ? frame / core->document->fps : frame);
 }
 
 /// The rectangle of the playhead's frame number on the ruler; empty if the playhead is not visible.
 static struct rect playhead_tag(const struct curves *curves, const struct core *core)
 {
-    const struct rect *ruler = &core->layout.ruler;
+    const struct rect *ruler = &core->view.layout.ruler;
     float x = curves_x(curves, core, core_frame(core));
     if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
     char text[32];
@@ -309,12 +310,12 @@ static struct rect playhead_tag(const struct curves *curves, const struct core *
 
 static void grid_show(const struct curves *curves, struct core *core)
 {
-    const struct layout *layout = &core->layout;
+    const struct layout *layout = &core->view.layout;
     const struct rect field = field_of(core), *plot = &layout->plot, *ruler = &layout->ruler,
                       *axis = &layout->value_axis;
-    const struct view *view = &curves->view;
+    const struct plotted *view = &curves->view;
     char text[32];
-    const double unit = core->curves.seconds ? core->document->fps : 1; // frames per unit of the ruler
+    const double unit = core->view.curves.seconds ? core->document->fps : 1; // frames per unit of the ruler
     struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
     drawlist_rect(&core->list, layout->curves, theme()->panel);
@@ -371,10 +372,10 @@ static void grid_show(const struct curves *curves, struct core *core)
     }
     drawlist_set_clip(&core->list, clip);
     const struct rect corner = ruler_corner(core);
-    const char *name = core->curves.seconds ? "s" : "frame";
+    const char *name = core->view.curves.seconds ? "s" : "frame";
     const float left = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, name);
     drawlist_text(&core->list, left, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
-                  core->hover.thing == &thing_units ? theme()->text : theme()->text_dim, name);
+                  core->input.hover.thing == &thing_units ? theme()->text : theme()->text_dim, name);
 
     clip = drawlist_push_clip(&core->list, *axis);
     const float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
@@ -393,16 +394,16 @@ static void grid_show(const struct curves *curves, struct core *core)
 
 static void choose_range(void *room, struct core *core)
 {
-    const double from = round(curves_frame(room, core, core->drag.start_x));
-    const double to = round(curves_frame(room, core, core->drag.x));
+    const double from = round(curves_frame(room, core, core->input.drag.start_x));
+    const double to = round(curves_frame(room, core, core->input.drag.x));
     playback_choose(core, fmin(from, to), fmax(from, to));
     playback_say_range(core);
 }
 
 static void scrub(void *room, struct core *core)
 {
-    const double frame = curves_frame(room, core, core->drag.x);
-    playback_seek(core, core->drag.snap ? round(frame) : frame);
+    const double frame = curves_frame(room, core, core->input.drag.x);
+    playback_seek(core, core->input.drag.snap ? round(frame) : frame);
 }
 
 /// Moves the playhead; with Shift chooses the played range.
@@ -414,13 +415,13 @@ static void press_ruler(void *room, struct core *core, const struct hover *hover
     const double frame = curves_frame(curves, core, event->x);
     (void)hover;
     drag_begin(core, event->mods & MOD_SHIFT ? &choosing : &scrubbing, curves, NULL, event);
-    memcpy(curves->range_before, core->playback.range, sizeof curves->range_before);
+    memcpy(curves->range_before, core->view.playback.range, sizeof curves->range_before);
     if (!(event->mods & MOD_SHIFT)) playback_seek(core, drag_snaps(core, event->mods) ? round(frame) : frame);
 }
 
 static bool find_ruler(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const struct rect *ruler = &core->layout.ruler;
+    const struct rect *ruler = &core->view.layout.ruler;
     xy[0] = curves_x(room, core, target->number[0]);
     xy[1] = ruler->y + ruler->h / 2;
     return rect_contains(*ruler, xy[0], xy[1]);
@@ -441,14 +442,14 @@ static const float RADIUS = 4, ABOVE = 9, BELOW = 6; ///< pixels around a mark o
 
 static void place_pin(const struct curves *curves, const struct core *core, const struct pin *pin, float xy[2])
 {
-    const struct rect *ruler = &core->layout.ruler;
+    const struct rect *ruler = &core->view.layout.ruler;
     xy[0] = curves_x(curves, core, document_frame(core->document, document_sample(core->document, pin->frame)));
     xy[1] = ruler->y + ruler->h - 1;
 }
 
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
-    const struct rect *ruler = &core->layout.ruler;
+    const struct rect *ruler = &core->view.layout.ruler;
     struct hover hover = {.thing = NULL};
     float best = REACH;
     const float edge = ruler->y + ruler->h;
@@ -458,7 +459,7 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
         float xy[2];
         place_pin(curves, core, pin, xy);
         float distance = fabsf(x - xy[0]);
-        if (distance < REACH && core->pin.any && core->pin.id == pin->id) distance = -1;
+        if (distance < REACH && core->focus.pin.any && core->focus.pin.id == pin->id) distance = -1;
         if (distance >= best) continue;
         best = distance;
         hover = (struct hover){.thing = &thing_pin_time, .rig = at.rig, .joint = pin->point, .pin = pin->id};
@@ -475,15 +476,15 @@ static void move_pin_time(void *room, struct core *core)
     const struct pin *pin = pins_selected(core, &rig);
     if (!pin || pin->id != drag->id) return;
     struct pin moved = *pin;
-    double frame = drag->frame + core->drag.moved_x / curves_pixels_per_frame(curves, core);
-    if (core->drag.snap) frame = round(frame);
+    double frame = drag->frame + core->input.drag.moved_x / curves_pixels_per_frame(curves, core);
+    if (core->input.drag.snap) frame = round(frame);
     int sample = document_sample(document, frame), last = pins_last_sample(document, document->rigs[rig]);
     sample = sample < 0 ? 0 : sample > last ? last : sample;
     const int there = pins_find(document, document->rigs[rig], pin->point, sample);
     if (there < 0 || document->rigs[rig]->pins[there].id == pin->id)
         drag->free_frame = document_frame(document, sample); // else it stays at the last free frame
     moved.frame = drag->free_frame;
-    if (!pins_set(core->document, rig, &moved, &core->error)) return;
+    if (!pins_set(core->document, rig, &moved, &core->step.error)) return;
     playback_seek(core, moved.frame);
     pins_tell(core, rig);
 }
@@ -506,7 +507,7 @@ static void press_pin_time(void *room, struct core *core, const struct hover *ho
 static bool find_pin_time(void *room, const struct core *core, const struct target *target, float xy[2])
 {
     place_pin(room, core, target->pin, xy);
-    return rect_contains(core->layout.ruler, xy[0], xy[1]);
+    return rect_contains(core->view.layout.ruler, xy[0], xy[1]);
 }
 
 /// pintime(tail,0): a pin's mark on the ruler, counted by frame.
@@ -554,7 +555,7 @@ static void show_line(struct core *core, const float *xy, int count, bool band, 
 
 static bool shows_imaginary(const struct core *core, const struct spline *spline)
 {
-    return core->curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
+    return core->view.curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->view.look != LOOK_CUBIC;
 }
 
 /// In painter's order, the active line and the take last.
@@ -564,18 +565,18 @@ static void show_lines(struct curves *curves, struct core *core)
     const struct curve_cache *cache = &curves->cache;
     const struct spline *spline = spline_list_seen(core);
     const struct ghost *ghost = &curves->ghost;
-    const struct rect plot = core->layout.plot;
-    uint32_t color = spline_list_color(document, core->active);
+    const struct rect plot = core->view.layout.plot;
+    uint32_t color = spline_list_color(document, core->focus.active);
     float *xy = curves->scratch;
 
     // The frames in which the active curve is pushed to a selected knot, as a faint band; in a loop also round the seam.
-    const bool winds_up = spline && core->look != LOOK_CUBIC && spline_winds_up(document, core->active);
+    const bool winds_up = spline && core->view.look != LOOK_CUBIC && spline_winds_up(document, core->focus.active);
     const bool loops = winds_up && spline_start(spline) == WIGGLY_LOOP;
     const bool rests = winds_up && spline_start(spline) == WIGGLY_REST;
     const double period = document->last_frame - document->first_frame;
     for (int k = 0; winds_up && k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k], *last = &spline->knots[spline->knot_count - 1];
-        if (!selection_has(&core->selection, knot->id) || (k == 0 && !loops && !rests)) continue;
+        if (!selection_has(&core->focus.selection, knot->id) || (k == 0 && !loops && !rests)) continue;
         const double frequency =
             core_parameter_at(core, spline, PARAMETER_FREQUENCY, document_sample(document, knot->frame));
         const double before = k > 0   ? spline->knots[k - 1].frame
@@ -591,12 +592,13 @@ static void show_lines(struct curves *curves, struct core *core)
         }
     }
     for (int i = 0; i < cache->other_count && cache->count > 1; i++) {
-        const bool hot = core->hover.thing == &thing_curve && core->hover.spline == cache->other_spline[i];
+        const bool hot =
+            core->input.hover.thing == &thing_curve && core->input.hover.spline == cache->other_spline[i];
         show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
                   theme_fade(spline_list_color(document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
     if (spline && cache->count > 1) {
-        if (ghost->is_shown && core->drag.owner && ghost->count > 1) {
+        if (ghost->is_shown && core->input.drag.owner && ghost->count > 1) {
             for (int c = 0; c < ghost->count; c++) {
                 xy[2 * c] = curves_x(curves, core, ghost->frame[c]);
                 xy[2 * c + 1] = curves_y(curves, core, ghost->value[c]);
@@ -615,7 +617,7 @@ static void show_lines(struct curves *curves, struct core *core)
 
     // The shown curves as they were before, the active one last.
     for (int i = take_is_shown(core) ? cache->other_count - 1 : -2; i >= -1; i--) {
-        const int shown = i < 0 ? core->active : cache->other_spline[i];
+        const int shown = i < 0 ? core->focus.active : cache->other_spline[i];
         if (!spline_list_shows(core, shown)) continue;
         color = i < 0 ? theme()->playhead : spline_list_color(document, shown);
         const struct take *take = &core->take;
@@ -685,7 +687,7 @@ static void knot_mark(struct drawlist *list, const struct knot *knot, const floa
 
 static bool is_hovered(const struct core *core, const struct knot *knot)
 {
-    return core->hover.thing == &thing_knot && core->hover.knot == knot->id;
+    return core->input.hover.thing == &thing_knot && core->input.hover.knot == knot->id;
 }
 
 /// A knot's pixel column, counted from the scene's first frame so that panning does not regroup knots.
@@ -700,8 +702,8 @@ static void show_active_knots(const struct curves *curves, struct core *core)
 {
     const struct document *document = core->document;
     const struct spline *spline = spline_list_seen(core);
-    const struct rect *plot = &core->layout.plot;
-    uint32_t color = spline_list_color(document, core->active);
+    const struct rect *plot = &core->view.layout.plot;
+    uint32_t color = spline_list_color(document, core->focus.active);
     if (!spline) return;
     const struct knot *knots = spline->knots;
     int k = curves_knot_from(curves, core, spline, plot->x - HANDLE_REACH);
@@ -712,13 +714,13 @@ static void show_active_knots(const struct curves *curves, struct core *core)
         if (x > plot->x + plot->w + HANDLE_REACH) break;
         for (end = k + 1; end < spline->knot_count && column_of(curves, core, &knots[end]) == column;) end++;
         for (int i = k; i < end && !is_hovered(core, &knots[shown]); i++) {
-            const bool better =
-                selection_has(&core->selection, knots[i].id) && !selection_has(&core->selection, knots[shown].id);
+            const bool better = selection_has(&core->focus.selection, knots[i].id) &&
+                                !selection_has(&core->focus.selection, knots[shown].id);
             if (better || is_hovered(core, &knots[i])) shown = i;
         }
         // In a band most columns get no mark: marks so close would cover each other.
         if (curves->cache.band && !is_hovered(core, &knots[shown]) &&
-            !selection_has(&core->selection, knots[shown].id) && fmod(column, MARK_STEP) != 0 && k > 0 &&
+            !selection_has(&core->focus.selection, knots[shown].id) && fmod(column, MARK_STEP) != 0 && k > 0 &&
             column - column_of(curves, core, &knots[k - 1]) <= MARK_STEP)
             continue;
         if (!curves->cache.band) { // a stroke over the values of all, for those without a mark
@@ -730,7 +732,7 @@ static void show_active_knots(const struct curves *curves, struct core *core)
 
         // The knot, with its slope: handles if it is selected, or a short stroke in their place.
         const struct knot *knot = &knots[shown];
-        const bool selected = selection_has(&core->selection, knot->id);
+        const bool selected = selection_has(&core->focus.selection, knot->id);
         float ends[2][2];
         for (int i = 0; i < 2 && knot->has_slope; i++) {
             curves_handle(curves, core, knot, i, ends[i]);
@@ -742,10 +744,11 @@ static void show_active_knots(const struct curves *curves, struct core *core)
                           theme_fade(color, selected ? 0.8f : 0.7f));
         for (int i = 0; i < 2 && knot->has_slope && selected; i++) {
             drawlist_disc(&core->list, ends[i], HANDLE_RADIUS, color);
-            if (core->hover.thing == &thing_slope && core->hover.knot == knot->id && core->hover.handle == i)
+            if (core->input.hover.thing == &thing_slope && core->input.hover.knot == knot->id &&
+                core->input.hover.handle == i)
                 hover_ring(&core->list, ends[i]);
         }
-        const float middle[2] = {x, curves_knot_y(curves, core, core->active, knot)};
+        const float middle[2] = {x, curves_knot_y(curves, core, core->focus.active, knot)};
         knot_mark(&core->list, knot, middle, KNOT_RADIUS, selected ? color : theme()->panel,
                   selected ? theme()->playhead : color); // hollow unless selected
         if (is_hovered(core, knot)) hover_ring(&core->list, middle);
@@ -755,14 +758,14 @@ static void show_active_knots(const struct curves *curves, struct core *core)
 void knots_show(const struct curves *curves, struct core *core, int s, float row)
 {
     const struct spline *spline = core->document->splines[s];
-    const struct rect *plot = &core->layout.plot;
+    const struct rect *plot = &core->view.layout.plot;
     const uint32_t full = spline_list_color(core->document, s);
     const bool on_sheet = !isnan(row);
     const float margin = on_sheet ? MARK_RADIUS + 1 : 0;
     float end = -INFINITY; // of the last mark
     for (int k = curves_knot_from(curves, core, spline, plot->x - margin); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        const bool selected = selection_has(&core->selection, knot->id);
+        const bool selected = selection_has(&core->focus.selection, knot->id);
         const float x = curves_knot_x(curves, core, knot);
         if (x < end && !selected && !is_hovered(core, knot)) continue; // where knots are crowded these show
         const float middle[2] = {x, on_sheet ? row : curves_knot_y(curves, core, s, knot)};
@@ -794,10 +797,10 @@ static uint32_t label_color(const struct core *core, int spline)
 /// The names of the drawn curves, as many as there is room for, the active one always among them.
 static void show_labels(const struct curves *curves, struct core *core)
 {
-    const struct rect *plot = &core->layout.plot;
+    const struct rect *plot = &core->view.layout.plot;
     const struct curve_cache *cache = &curves->cache;
     const struct spline *active = spline_list_seen(core);
-    const uint32_t color = label_color(core, core->active);
+    const uint32_t color = label_color(core, core->focus.active);
     struct label labels[MAX_LABELS];
     int count = 0, end = cache->count - 1;
     if (cache->count < 2) return;
@@ -818,7 +821,7 @@ static void show_labels(const struct curves *curves, struct core *core)
     float limit = bottom;
     for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
     float x = plot->x + plot->w + 6;
-    float width = core->layout.curves.x + core->layout.curves.w - 6 - x;
+    float width = core->view.layout.curves.x + core->view.layout.curves.w - 6 - x;
     for (int i = 0; i < count; i++) {
         drawlist_text_fit(&core->list, x, roundf(labels[i].y + 4), width, labels[i].font, THEME_TEXT_SMALL,
                           labels[i].color, labels[i].text);
@@ -828,34 +831,35 @@ static void show_labels(const struct curves *curves, struct core *core)
 void curves_show(struct curves *curves, struct core *core)
 {
     static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
-    const struct rect *plot = &core->layout.plot, *sheet = &core->layout.sheet, *ruler = &core->layout.ruler;
+    const struct rect *plot = &core->view.layout.plot, *sheet = &core->view.layout.sheet,
+                      *ruler = &core->view.layout.ruler;
     const struct document *document = core->document;
     const struct spline *spline = core_active_spline(core), *visible = spline_list_seen(core);
-    struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
+    struct rect clip = drawlist_push_clip(&core->list, core->view.layout.curves);
     curves_update(curves, core);
     grid_show(curves, core);
     struct rect panel = drawlist_push_clip(&core->list, *plot);
     for (int i = 0; visible && i < 2; i++) {
         const double limit = visible->parameter[i ? PARAMETER_HIGH : PARAMETER_LOW].value;
         if (!isfinite(limit)) continue;
-        const bool hot = core->hover.thing == &thing_limit && core->hover.handle == i;
+        const bool hot = core->input.hover.thing == &thing_limit && core->input.hover.handle == i;
         const float y = curves_y(curves, core, limit), line[] = {plot->x, y, plot->x + plot->w, y};
         drawlist_dashed(&core->list, line, 2, hot ? 2 : 1.25f, 10, 6,
-                        theme_fade(spline_list_color(document, core->active), hot ? 1 : 0.6f));
+                        theme_fade(spline_list_color(document, core->focus.active), hot ? 1 : 0.6f));
     }
     show_lines(curves, core);
     for (int i = 0; i < curves->cache.other_count; i++) {
         knots_show(curves, core, curves->cache.other_spline[i], NAN);
     }
     show_active_knots(curves, core);
-    if (!core->drag.owner) scale_box_show(curves, core, true); // it would change with every step of a drag
+    if (!core->input.drag.owner) scale_box_show(curves, core, true); // it would change with every step of a drag
     warnings_update(curves, core);
     warnings_show(curves, core);
 
     // The hint of an empty panel, unless a swinging equilibrium would be under the text.
     const bool flat = spline && spline->knot_count == 0 &&
                       !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) &&
-                      !pins_move_spline(document, core->active);
+                      !pins_move_spline(document, core->focus.active);
     if (!visible || flat) {
         const char *hint =
             spline && !visible      ? "This spline is hidden. Click its eye in the list (F9: More) to show it."
@@ -869,8 +873,8 @@ void curves_show(struct curves *curves, struct core *core)
     sheet_show(curves, core);
 
     // Notes above the curves' names: before (K), phase curve (V), normalised (N), no snapping (G).
-    const char *normal = core->curves.normalise ? "fit" : "", *snap = core->no_snap ? "free" : "";
-    const char *const words[] = {take_is_shown(core) ? "Before" : "", looks[core->look], normal, snap};
+    const char *normal = core->view.curves.normalise ? "fit" : "", *snap = core->input.no_snap ? "free" : "";
+    const char *const words[] = {take_is_shown(core) ? "Before" : "", looks[core->view.look], normal, snap};
     char text[40] = "", frame[32];
     for (int i = 0; i < 4; i++) {
         if (*text && *words[i]) strcat(text, ", ");
@@ -894,8 +898,8 @@ void curves_show(struct curves *curves, struct core *core)
     struct pin_place at = PINS_START;
     for (const struct pin *pin; (pin = pins_next(document, &at));) {
         const uint32_t color = pins_color(document, at.rig);
-        const bool selected = core->pin.any && core->pin.id == pin->id;
-        const bool hot = core->hover.thing == &thing_pin_time && core->hover.pin == pin->id;
+        const bool selected = core->focus.pin.any && core->focus.pin.id == pin->id;
+        const bool hot = core->input.hover.thing == &thing_pin_time && core->input.hover.pin == pin->id;
         const float radius = RADIUS + (selected || hot ? 1 : 0);
         float xy[2];
         place_pin(curves, core, pin, xy);

@@ -29,7 +29,7 @@ struct dope_sheet {
 };
 
 /// Visible part of the curves panel.
-struct view {
+struct plotted {
     double frame0, frame1; ///< at the plot's left and right edge
     double value0, value1; ///< at its bottom and top edge
 };
@@ -37,7 +37,7 @@ struct view {
 /// The view's animation towards an edit.
 struct following {
     bool moves;
-    struct view goal;
+    struct plotted goal;
 };
 
 enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
@@ -138,7 +138,7 @@ struct ghost {
 };
 
 struct curves {
-    struct view view;
+    struct plotted view;
     struct following following;
     struct dope_sheet sheet;
     struct selection before_box; ///< the selection before a box was drawn

@@ -121,7 +121,7 @@ bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const
 {
     struct dialog *dialog = &dialogs->dialog;
     struct question *question = &dialog->question;
-    if (!saving && (core->drag.owner || dialogs_cover(dialogs))) return false;
+    if (!saving && (core->input.drag.owner || dialogs_cover(dialogs))) return false;
     *question = QUESTION(changed_answers, answer_changed);
     snprintf(question->title, sizeof question->title, "%.255s has changed on the disk", name);
     snprintf(question->note, sizeof question->note,
@@ -543,7 +543,7 @@ static void export_build(struct dialogs *dialogs, struct core *core)
             if (format >= 0) exporting->format = format;
         }
         ui_space(ui, 8);
-        const int fitting = (int)((core->layout.window.h - FRAME_HEIGHT) / UI_ROW), most = files->format_count;
+        const int fitting = (int)((core->view.layout.window.h - FRAME_HEIGHT) / UI_ROW), most = files->format_count;
         const int rows = fitting < LEAST_ROWS ? LEAST_ROWS : fitting > most ? most : fitting;
         const int chosen = exporting->format;
         const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
@@ -817,7 +817,7 @@ static void build_list(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
-    const int rows = (int)fminf(LIST_ROWS, fmaxf((core->layout.window.h - AROUND_LIST) / UI_ROW, 1));
+    const int rows = (int)fminf(LIST_ROWS, fmaxf((core->view.layout.window.h - AROUND_LIST) / UI_ROW, 1));
     struct rect list = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
     const struct event *event = ui->event;
     const bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
@@ -929,7 +929,7 @@ static void build(struct dialogs *dialogs, struct core *core)
 /// Centred, as high as its content.
 static struct rect dialog_box(struct dialogs *dialogs, struct core *core)
 {
-    struct rect window = core->layout.window;
+    struct rect window = core->view.layout.window;
     struct ui *ui = &dialogs->dialog.ui;
     const bool narrow = is_question(&dialogs->dialog) && dialogs->dialog.question.count < 4;
     float w = fminf(narrow ? 440 : 560, window.w - 16);
@@ -996,7 +996,7 @@ void dialogs_show(struct dialogs *dialogs, struct core *core)
     if (dialogs->dialog.kind == DIALOG_NONE) return;
     struct drawlist *list = &core->list;
     const struct rect box = dialog_box(dialogs, core);
-    drawlist_rect(list, core->layout.window, theme()->veil);
+    drawlist_rect(list, core->view.layout.window, theme()->veil);
     drawlist_rounded(list, box, 8, theme()->panel);
     drawlist_rounded_line(list, box, 8, 1, theme()->zero);
     ui_begin_draw(&dialogs->dialog.ui, box, list);
@@ -1016,6 +1016,6 @@ bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over)
 
 float dialogs_bottom(const struct dialogs *dialogs, const struct core *core)
 {
-    const struct rect *stage = &core->layout.stage;
+    const struct rect *stage = &core->view.layout.stage;
     return dialogs->welcome ? dialogs->card.y : stage->y + stage->h;
 }

@@ -172,7 +172,7 @@ static struct page lookup_page(const struct dialogs *dialogs, const struct core 
             }
         }
     }
-    return runs ? palette_page(found, core->layout.window) : keys_page(dialogs, found, core->layout.window);
+    return runs ? palette_page(found, core->view.layout.window) : keys_page(dialogs, found, core->view.layout.window);
 }
 
 /// Opens it, or closes it if it is open.
@@ -191,8 +191,8 @@ void dialogs_help(struct dialogs *dialogs, const struct core *core)
                                         [PANEL_CURVES] = ON_CURVES,
                                         [PANEL_INSPECTOR] = ON_INSPECTOR,
                                         [PANEL_STATUS] = ON_TIME};
-    const struct thing *thing = core->hover.thing;
-    const enum panel panel = core_panel_at(core, core->pointer_x, core->pointer_y);
+    const struct thing *thing = core->input.hover.thing;
+    const enum panel panel = core_panel_at(core, core->input.pointer_x, core->input.pointer_y);
     const enum place at = thing && thing->place ? thing->place : places[panel];
     flip_lookup(dialogs, (struct lookup){.kind = LOOKUP_KEYS, .at = at});
 }
@@ -307,7 +307,7 @@ static void show_command(struct core *core, struct rect r, const struct commands
     command_keys(command, keys);
     if (chosen) {
         drawlist_rounded(list, r, 4, theme()->fill);
-    } else if (rect_contains(r, core->pointer_x, core->pointer_y)) {
+    } else if (rect_contains(r, core->input.pointer_x, core->input.pointer_y)) {
         drawlist_rounded(list, r, 4, theme()->raised);
     }
     const float name = ceilf(ui_text_width(command->name)), right = ceilf(ui_text_width(keys));
@@ -412,7 +412,7 @@ void lookup_show(const struct dialogs *dialogs, struct core *core)
     const struct page page = lookup_page(dialogs, core, &found);
     struct ui_list list = lookup->list;
     ui_list_fit(&list, page.view, page.content);
-    drawlist_rect(drawn, core->layout.window, theme()->veil);
+    drawlist_rect(drawn, core->view.layout.window, theme()->veil);
     drawlist_rounded(drawn, page.box, 8, theme()->panel);
     drawlist_rounded_line(drawn, page.box, 8, 1, theme()->zero);
 
@@ -535,7 +535,7 @@ static void measure(const struct core *core, int count, float *what, float *why)
 
 static struct card corner_card(const struct core *core, enum form form, bool right)
 {
-    const struct rect *stage = &core->layout.stage;
+    const struct rect *stage = &core->view.layout.stage;
     struct card card = {.form = form, .hints = HINTS};
     float what, why;
     measure(core, HINTS, &what, &why);
@@ -551,7 +551,7 @@ static struct card corner_card(const struct core *core, enum form form, bool rig
 /// Hints in a band at the top, in place of the description. The camera keeps that height free.
 static struct card band_card(const struct core *core, int count)
 {
-    const struct rect *stage = &core->layout.stage;
+    const struct rect *stage = &core->view.layout.stage;
     struct card card = {.form = FORM_BAND, .hints = count};
     float what, why;
     measure(core, card.hints, &what, &why);
@@ -570,18 +570,19 @@ static struct card place_card(const struct core *core, struct rect figure)
         enum form form;
         bool right;
     } places[] = {{FORM_WIDE, false}, {FORM_UPRIGHT, false}, {FORM_UPRIGHT, true}, {FORM_WIDE, true}};
-    const bool legend = core->characters.mapped || core->brush.on; // the phase map's legend is at the left
-    const bool roomy = core->layout.stage.w >= WIDE && rigs_lead(core) != LEAD_CHARACTER;
+    const bool legend =
+        core->focus.characters.mapped || core->focus.brush.on; // the phase map's legend is at the left
+    const bool roomy = core->view.layout.stage.w >= WIDE && rigs_lead(core) != LEAD_CHARACTER;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         const struct card card = corner_card(core, places[i].form, places[i].right);
         if (legend && !places[i].right) continue;
         const struct rect *r = &card.rect;
         const bool beside = r->x + r->w <= figure.x || r->x >= figure.x + figure.w || figure.w == 0;
-        const bool below = r->y >= core->layout.stage.y + CARD_TITLE; // the description's title
+        const bool below = r->y >= core->view.layout.stage.y + CARD_TITLE; // the description's title
         if (roomy || (beside && below)) return card;
     }
-    const struct card band = band_card(core, core->layout.stage.h < TALL || !core->document->about ? 1 : 2);
-    return band.rect.w <= core->layout.stage.w ? band : band_card(core, 1);
+    const struct card band = band_card(core, core->view.layout.stage.h < TALL || !core->document->about ? 1 : 2);
+    return band.rect.w <= core->view.layout.stage.w ? band : band_card(core, 1);
 }
 
 bool welcome_event(struct dialogs *dialogs, const struct event *event)
@@ -610,9 +611,9 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rec
     if (!dialogs->welcome) return;
     const struct card card = place_card(core, figure);
     dialogs->card = (struct rect){0};
-    if (card.rect.w > core->layout.stage.w) return;
+    if (card.rect.w > core->view.layout.stage.w) return;
     struct drawlist *list = &core->list;
-    struct rect clip = drawlist_push_clip(list, core->layout.stage);
+    struct rect clip = drawlist_push_clip(list, core->view.layout.stage);
     drawlist_rounded(list, card.rect, 8, theme()->panel);
     drawlist_rounded_line(list, card.rect, 8, 1, theme()->zero);
     const float left = card.rect.x + CARD_PAD;
@@ -689,14 +690,14 @@ void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt
 {
     const float share = (float)(1 - maths_exp(-dt / GLIDE));
     struct pressed *pressed = &dialogs->pressed;
-    pressed->pointer[0] += share * (core->pointer_x - pressed->pointer[0]);
-    pressed->pointer[1] += share * (core->pointer_y - pressed->pointer[1]);
+    pressed->pointer[0] += share * (core->input.pointer_x - pressed->pointer[0]);
+    pressed->pointer[1] += share * (core->input.pointer_y - pressed->pointer[1]);
     if (!pressed->is_down) pressed->seconds = fmax(pressed->seconds - dt, 0);
 }
 
 static bool shows_input(const struct dialogs *dialogs, const struct core *core)
 {
-    return core->presenter.on || dialogs->pressed.is_demo;
+    return core->view.presenter.on || dialogs->pressed.is_demo;
 }
 
 bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core)
@@ -707,7 +708,7 @@ bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core)
 /// A pill centred in the free part of the stage.
 static void show_pill(struct core *core, float bottom, const char *text, float alpha, uint32_t color)
 {
-    const struct rect open = core->layout.open;
+    const struct rect open = core->view.layout.open;
     const float most = fmaxf(open.w - 2 * PILL_MARGIN, 2 * PILL_PAD);
     const float w = fminf(ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_TITLE, text)) + 2 * PILL_PAD, most);
     const struct rect pill = {roundf(open.x + (open.w - w) / 2), roundf(bottom - PILL_HEIGHT), w, PILL_HEIGHT};
@@ -722,7 +723,7 @@ void dialogs_show_input(const struct dialogs *dialogs, struct core *core)
 {
     const struct pressed *pressed = &dialogs->pressed;
     const struct message *message = &core->message;
-    float bottom = core->layout.open.y + core->layout.open.h - PILL_MARGIN;
+    float bottom = core->view.layout.open.y + core->view.layout.open.h - PILL_MARGIN;
     char text[sizeof pressed->text + 16];
     if (!shows_input(dialogs, core)) return;
     if (dialogs->caption[0]) {
@@ -734,7 +735,7 @@ void dialogs_show_input(const struct dialogs *dialogs, struct core *core)
         show_pill(core, bottom, text, (float)fmin(pressed->seconds / PRESSED_FADE, 1), theme()->accent);
         bottom -= PILL_HEIGHT + PILL_GAP;
     }
-    if (message->text[0] && core->presenter.on && core->presenter.below == 0) // the status line is hidden
+    if (message->text[0] && core->view.presenter.on && core->view.presenter.below == 0) // the status line is hidden
         show_pill(core, bottom, message->text, 1, message->is_error ? theme()->error : theme()->text);
     if (!pressed->is_demo) return;
     const float x = pressed->pointer[0], y = pressed->pointer[1]; // ringed while a button is down

@@ -34,7 +34,7 @@ static bool set_angles(struct inspector *in, enum angle_kind kind, const struct 
 static void change_angles(struct inspector *in, enum angle_kind kind, enum ui_change change, const char *label,
                           const char *what, const struct angles *angles)
 {
-    if (inspector_step(in, change, label, what)) set_angles(in, kind, angles, &in->core->error);
+    if (inspector_step(in, change, label, what)) set_angles(in, kind, angles, &in->core->step.error);
 }
 
 /// Factor that extends a slider's ends to include its angle; constant during a drag.
@@ -62,7 +62,8 @@ static const struct angles *kept_angles(const struct inspector *in, int kind)
     const struct rig *rig = take_rig(in->core, in->rig);
     const struct channel *channels = rig ? rig_channels(rig, &count) : NULL;
     if (rig && kind == ANGLE_REST) return &rig->tail.rest;
-    if (in->channel >= count || channels[in->channel].spline != take_spline(in->core, in->core->active)) return NULL;
+    if (in->channel >= count || channels[in->channel].spline != take_spline(in->core, in->core->focus.active))
+        return NULL;
     return kind == ANGLE_LAG ? &channels[in->channel].lag : &channels[in->channel].gain;
 }
 
@@ -385,7 +386,7 @@ float inspector_highest_curve(const struct inspector *in, enum angle_kind kind)
     static const float heights[] = {[ANGLES_ONE] = 0, [ANGLES_RAMP] = HEIGHT, [ANGLES_EACH] = HEIGHT + UI_ROW};
     const struct document *document = in->core->document;
     float highest = 0;
-    for (int r = 0; in->core->more && r < document->rig_count; r++) {
+    for (int r = 0; in->core->view.more && r < document->rig_count; r++) {
         int count;
         const struct channel *channels = rig_channels(document->rigs[r], &count);
         for (int c = 0; c < count; c++)
@@ -409,9 +410,9 @@ void inspector_angles(struct inspector *in, enum angle_kind kind)
     number.minimum *= reach;
     number.maximum = lags ? 720 : reach * number.maximum;
     if (several) number.fallback = NAN;
-    if (in->core->more) r.w = left.x - r.x - 2;
+    if (in->core->view.more) r.w = left.x - r.x - 2;
     inspector_number(in, &number, &home, (int)kind, r);
-    if (!in->core->more) return;
+    if (!in->core->view.more) return;
 
     const struct angles *angles = angles_of(in, (int)kind);
     struct angles ramp = {.form = ANGLES_RAMP, .count = 2}, each = {.form = ANGLES_EACH, .count = joints};

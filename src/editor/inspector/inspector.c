@@ -45,10 +45,10 @@ static bool has_no_spline(const struct core *core) { return core_active_spline(c
 
 static bool has_bone(const struct core *core)
 {
-    return has_no_spline(core) || core->bone.any || core->pick.use != BONE_SELECTED;
+    return has_no_spline(core) || core->focus.bone.any || core->focus.pick.use != BONE_SELECTED;
 }
 
-static bool has_brush(const struct core *core) { return core->brush.on; }
+static bool has_brush(const struct core *core) { return core->focus.brush.on; }
 
 /// In order. Replays address headers by `name`.
 static const struct section {
@@ -91,7 +91,7 @@ static bool is_shown(const struct inspector *in, int i)
     unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
     for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
     if (section->needs && !(section->needs & found)) return false;
-    return core->more || in->called[i] || (section->shown && section->shown(core));
+    return core->view.more || in->called[i] || (section->shown && section->shown(core));
 }
 
 void inspector_unfold(struct inspector *in, const char *name)
@@ -119,7 +119,7 @@ static bool build_panel(struct inspector *in, struct rect area)
         const struct section *section = &sections[i];
         bool *flipped = &in->flipped[i];
         if (i == FIRST) { // at a fixed place
-            const bool more = in->core->more;
+            const bool more = in->core->view.more;
             const struct rect row = ui_row(ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
             ui_hint(ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
             if (ui_button(ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
@@ -152,7 +152,7 @@ static bool build_panel(struct inspector *in, struct rect area)
         drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
     }
     ui_hint(ui, footer, "Show the same knots without lag (stiff), or as a cubic (V)");
-    int look = (int)in->core->look;
+    int look = (int)in->core->view.look;
     if (ui_segments(ui, inspector_label(in, row, "compare with"), "look", looks, 3, &look))
         core_set_look(in->core, (enum look)look);
     inspector_offer(in, &inspector_add_list); // A works anywhere
@@ -186,7 +186,7 @@ void inspector_reset(struct inspector *in)
 static bool concerns(const struct inspector *in, const struct event *event)
 {
     const struct ui *ui = &in->ui;
-    struct rect area = in->core->layout.inspector;
+    struct rect area = in->core->view.layout.inspector;
     bool input = event->kind <= EVENT_WHEEL;
     const bool inside =
         rect_contains(area, event->x, event->y) && core_divider_at(in->core, event->x, event->y) == DIVIDER_NONE;
@@ -194,7 +194,7 @@ static bool concerns(const struct inspector *in, const struct event *event)
     if (ui->popup.id) return input;
     switch (event->kind) {
     case EVENT_KEY:
-        if (in->core->held_key && !ui->typing) return false; // a held letter and an arrow go to the editor
+        if (in->core->input.held_key && !ui->typing) return false; // a held letter and an arrow go to the editor
         return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
     case EVENT_TEXT:
         return ui->typing || ui->focus;
@@ -212,7 +212,7 @@ static bool concerns(const struct inspector *in, const struct event *event)
 bool inspector_event(struct inspector *in, const struct event *event)
 {
     struct ui *ui = &in->ui;
-    struct rect area = in->core->layout.inspector;
+    struct rect area = in->core->view.layout.inspector;
     if (!concerns(in, event)) {
         if (event->kind == EVENT_SIZE) ui->popup.id = 0; // its anchor has moved
         if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return false;
@@ -229,8 +229,8 @@ bool inspector_event(struct inspector *in, const struct event *event)
     build_panel(in, area);
     bool used = ui_end(ui);
     const bool is_open = history_is_open(in->core->history);
-    if (was_dragging && !ui->held) in->core->step_ends = is_open;
-    if (inspector_is_dragging(in) && is_open && !in->core->step_ends) {
+    if (was_dragging && !ui->held) in->core->step.ends = is_open;
+    if (inspector_is_dragging(in) && is_open && !in->core->step.ends) {
         core_keep_following(in->core);
         core_settle(in->core);
     }
@@ -246,9 +246,9 @@ bool inspector_event(struct inspector *in, const struct event *event)
 
 void inspector_show(struct inspector *in, bool covered)
 {
-    struct rect area = in->core->layout.inspector;
+    struct rect area = in->core->view.layout.inspector;
     if (covered) in->ui.pointer_x = area.x - 1; // nothing here is under the pointer
-    const struct bone_selection *bone = &in->core->bone, *seen = &in->seen_bone;
+    const struct bone_selection *bone = &in->core->focus.bone, *seen = &in->seen_bone;
     const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
     in->seen_bone = *bone;
     if (!same && bone->any) inspector_unfold(in, "section.model");
@@ -266,7 +266,7 @@ void inspector_show(struct inspector *in, bool covered)
 
 void inspector_let_go(struct inspector *in)
 {
-    if (inspector_is_dragging(in) && history_is_open(in->core->history)) in->core->step_ends = true;
+    if (inspector_is_dragging(in) && history_is_open(in->core->history)) in->core->step.ends = true;
     core_close(in->core);
     ui_release(&in->ui);
 }
@@ -285,8 +285,8 @@ bool inspector_target(struct inspector *in, const char *name, float *x, float *y
         if (end == comma + 1 || *end || !isfinite(value)) return false;
         *comma = '\0';
     }
-    ui_begin_find(&in->ui, in->core->layout.inspector, widget, comma ? &value : NULL);
-    build_panel(in, in->core->layout.inspector);
+    ui_begin_find(&in->ui, in->core->view.layout.inspector, widget, comma ? &value : NULL);
+    build_panel(in, in->core->view.layout.inspector);
     bool found = ui_end(&in->ui);
     *x = in->ui.found_x;
     *y = in->ui.found_y;
@@ -302,9 +302,9 @@ bool inspector_step(struct inspector *in, enum ui_change change, const char *lab
     case UI_NONE:
         return false;
     case UI_DRAG:
-        core->error = (struct error){0};
+        core->step.error = (struct error){0};
         if (!core_step(core, label, 0)) history_restart(core->history);
-        core->step_ends = false;
+        core->step.ends = false;
         return true;
     case UI_CANCEL:
     case UI_DROP:
@@ -367,7 +367,7 @@ static void change_number(struct inspector *in, const struct number_row *row, co
     if (!inspector_step(in, change, row->undo, row->name)) return;
     if (is_first) in->dragged = get_number(in, row, home, which);
     if (change != UI_DRAG) {
-        set_number(in, row, home, which, value, &in->core->error);
+        set_number(in, row, home, which, value, &in->core->step.error);
     } else if (set_number(in, row, home, which, value, NULL)) {
         in->dragged = value;
     } else { // stop at the last possible value
@@ -524,7 +524,7 @@ static bool set_scene(struct inspector *in, int which, double number, struct err
     if (which == ROW_FIRST) spline_list_range(in->core, whole, document->last_frame);
     if (which == ROW_LAST) spline_list_range(in->core, document->first_frame, whole);
     if (which == ROW_SUBSTEPS && core_step(in->core, "Set substeps", 0))
-        edit_substeps(in->core->document, whole, &in->core->error);
+        edit_substeps(in->core->document, whole, &in->core->step.error);
     return true;
 }
 
@@ -679,7 +679,7 @@ static double get_knots(const struct inspector *in, int field)
 /// if one cannot go there.
 static bool set_knots(struct inspector *in, int field, double value, struct error *error)
 {
-    const struct originals *originals = &in->core->originals;
+    const struct originals *originals = &in->core->step.originals;
     core_collect(in->core, false);
     const double by = value - number_at(&knot_rows[field], &originals->list[0].knot);
     const bool together = in->change != UI_SET || field == FIELD_FRAME;
@@ -863,7 +863,7 @@ void inspector_knot(struct inspector *in)
     const struct spline *spline = core_active_spline(in->core);
     const int count = selected_count(in->core);
     struct knot_place only = SELECTED_START;
-    const bool one = count == 1 && selected_next(in->core, &only) && only.spline == in->core->active;
+    const bool one = count == 1 && selected_next(in->core, &only) && only.spline == in->core->focus.active;
     const float end = ui->y + (FIELDS + 2) * UI_ROW;
     if (count > 1) {
         build_several(in);
@@ -969,8 +969,8 @@ void inspector_pins(struct inspector *in)
 
     struct pin_place place = PINS_START;
     int selected = 0, row = 0, owner;
-    for (const struct pin *pin; core->pin.any && (pin = pins_next(core->document, &place)); row++) {
-        if (pin->id == core->pin.id) selected = row;
+    for (const struct pin *pin; core->focus.pin.any && (pin = pins_next(core->document, &place)); row++) {
+        if (pin->id == core->focus.pin.id) selected = row;
     }
     const int first = inspector_first_row(count, selected, MAX_PINS);
     bool removed = false;
@@ -990,14 +990,14 @@ void inspector_pins(struct inspector *in)
         const double millimetres = w ? 1e3 * sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) : NAN;
         if (isfinite(millimetres)) snprintf(left, sizeof left, "%.1f mm", millimetres);
         r.w -= r.h + 4;
-        const bool pressed = ui_list_row(ui, r, name, "", 0, core->pin.any && core->pin.id == pin->id);
+        const bool pressed = ui_list_row(ui, r, name, "", 0, core->focus.pin.any && core->focus.pin.id == pin->id);
         ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 66, r.h}, text, theme()->text);
         ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
         ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
         if (pressed) pins_visit(core, pin);
         if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin"))
-            removed =
-                core_step(core, "Delete pin", 0) && edit_pin_remove(core->document, place.rig, pin->id, &core->error);
+            removed = core_step(core, "Delete pin", 0) &&
+                      edit_pin_remove(core->document, place.rig, pin->id, &core->step.error);
     }
     if (!removed) inspector_more(in, count, MAX_PINS, " pins; , and . show more");
     if (!pins_selected(core, &owner)) return;

@@ -372,7 +372,7 @@ static bool set_pole(struct inspector *in, enum parameter parameter, double numb
 {
     const struct spline *spline = core_active_spline(in->core);
     return spline->parameter[parameter].track >= 0 ||
-           core_set_parameter(in->core, in->core->active, parameter, number);
+           core_set_parameter(in->core, in->core->focus.active, parameter, number);
 }
 
 /// The setting after a handle moved.

@@ -31,7 +31,7 @@ const struct rig *inspector_shown(const struct inspector *in)
 void inspector_find_rig(struct inspector *in)
 {
     const int limb = core_limb(in->core);
-    if (limb >= 0 && limb != in->selected) inspector_show_spline(in, in->core->active); // dragged, not clicked
+    if (limb >= 0 && limb != in->selected) inspector_show_spline(in, in->core->focus.active); // dragged, not clicked
     if (!inspector_shown(in)) {
         const int tail = document_find_rig(in->core->document, RIG_TAIL, 0),
                   chain = document_find_rig(in->core->document, RIG_CHAIN, 0);
@@ -43,7 +43,7 @@ void inspector_find_rig(struct inspector *in)
     if (in->selected >= in->core->document->rig_count) in->selected = in->core->document->rig_count - 1;
     if (in->selected < 0) in->selected = 0;
 
-    struct character_view *view = &in->core->characters;
+    struct character_view *view = &in->core->focus.characters;
     if (!document_character(in->core->document, view->character)) view->character = 0;
     const struct character_rig *character = document_character(in->core->document, view->character);
     if (character && view->drive >= character->drive_count) view->drive = 0;
@@ -62,8 +62,8 @@ static void show_rig(struct inspector *in, int rig)
         in->rig = rig;
         break;
     case RIG_CHARACTER:
-        core->characters.drive = number == core->characters.character ? core->characters.drive : 0;
-        core->characters.character = number;
+        core->focus.characters.drive = number == core->focus.characters.character ? core->focus.characters.drive : 0;
+        core->focus.characters.character = number;
         break;
     case RIG_MODEL:
         in->model = number;
@@ -94,7 +94,7 @@ void inspector_show_spline(struct inspector *in, int spline)
     const int input = input_of(document->rigs[found], spline);
     show_rig(in, found);
     if (is_tail_or_chain(document, found)) in->channel = input;
-    if (document->rigs[found]->kind == RIG_CHARACTER) in->core->characters.drive = input;
+    if (document->rigs[found]->kind == RIG_CHARACTER) in->core->focus.characters.drive = input;
 }
 
 void inspector_show_rig(struct inspector *in, int rig)
@@ -106,11 +106,11 @@ void inspector_show_rig(struct inspector *in, int rig)
     const struct rig *chosen = in->core->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
     show_rig(in, rig);
-    in->core->limb = chosen->id;
+    in->core->focus.limb = chosen->id;
     inspector_unfold(in, sections[chosen->kind]);
     if (rig_input_count(chosen) == 0) return;
-    if (input_of(chosen, in->core->active) < 0) core_activate(in->core, rig_input(chosen, 0));
-    inspector_show_spline(in, in->core->active);
+    if (input_of(chosen, in->core->focus.active) < 0) core_activate(in->core, rig_input(chosen, 0));
+    inspector_show_spline(in, in->core->focus.active);
 }
 
 void inspector_show_clicked(struct inspector *in)
@@ -119,7 +119,7 @@ void inspector_show_clicked(struct inspector *in)
     in->core->clicked = 0;
     if (rig < 0 || rig >= in->core->document->rig_count) return;
     inspector_show_rig(in, rig);
-    in->seen_bone = in->core->bone; // of a chain
+    in->seen_bone = in->core->focus.bone; // of a chain
     in->revealed = NULL;
 }
 
@@ -239,8 +239,8 @@ const struct dropdown inspector_add_list = {.name = "add", .build = choose_added
 
 void inspector_add_menu(struct inspector *in, int unused)
 {
-    const struct layout *layout = &in->core->layout;
-    const float x = in->core->pointer_x, y = in->core->pointer_y;
+    const struct layout *layout = &in->core->view.layout;
+    const float x = in->core->input.pointer_x, y = in->core->input.pointer_y;
     const bool beside = rect_contains(layout->stage, x, y) || rect_contains(layout->curves, x, y);
     const struct rect panel = layout->inspector;
     (void)unused;
@@ -300,7 +300,7 @@ static void follow(struct inspector *in, int k, struct param param)
     struct rig changed = *inspector_shown(in);
     changed.tail.position[k] = param;
     if (core_step(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
-        edit_rig_set(in->core->document, in->rig, &changed, &in->core->error);
+        edit_rig_set(in->core->document, in->rig, &changed, &in->core->step.error);
 }
 
 static void choose_place(struct inspector *in, const struct dropdown *list)
@@ -330,7 +330,7 @@ static void build_coordinate(struct inspector *in, const struct tail *tail, int 
         if (in->core->document->spline_count == 0) return;
     }
     if (ui_icon_button(&in->ui, icon, button, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW, false, hint)) {
-        const wiggly_value now = evaluation_at(in->core->evaluation, track, in->core->playback.position);
+        const wiggly_value now = evaluation_at(in->core->evaluation, track, in->core->view.playback.position);
         if (follows) follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
         if (!follows) ui_popup_open(&in->ui, place_list.name, k, field);
     }
@@ -362,7 +362,8 @@ static void choose_channel(struct inspector *in, int channel)
 /// In its own undo step.
 static bool put_channel(struct inspector *in, const char *label, const struct channel *channel)
 {
-    return core_step(in->core, label, 0) && edit_channel(in->core->document, place_of(in), channel, &in->core->error);
+    return core_step(in->core, label, 0) &&
+           edit_channel(in->core->document, place_of(in), channel, &in->core->step.error);
 }
 
 /// A gain still at its default becomes the new axis's default.
@@ -437,10 +438,11 @@ static void build_overlays(struct inspector *in)
         const char *name, *label, *hint;
         bool *on;
     } toggles[] = {
-        {"onion", "onion skin", "Show the pose at the knots around the playhead (O)", &core->overlays.onion},
+        {"onion", "onion skin", "Show the pose at the knots around the playhead (O)", &core->view.overlays.onion},
         {"trail", "motion arc", "Show the path of the tip or liveliest point, one mark per frame (Shift+O)",
-         &core->overlays.trail},
-        {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)", &core->overlays.ghost},
+         &core->view.overlays.trail},
+        {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)",
+         &core->view.overlays.ghost},
     };
     for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
@@ -466,8 +468,8 @@ static void build_channel(struct inspector *in)
         [AXIS_SIDE] = {"side", "Bend"}, [AXIS_UP] = {"up", "Lift"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
         [PART_TOTAL] = {"total", "Curve"}, [PART_DISPLACEMENT] = {"displacement", "Swing"}};
-    struct error *error = &in->core->error;
-    const int rig = in->rig, spline = in->core->active;
+    struct error *error = &in->core->step.error;
+    const int rig = in->rig, spline = in->core->focus.active;
     const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
     if (pressed == 0 && core_step(in->core, "Add channel", 0) &&
         edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error))
@@ -502,7 +504,7 @@ static void build_end(struct inspector *in, const struct end *end, const char *b
     field.w -= INSPECTOR_ICON + 4;
     const int rig = in->rig;
     inspector_dropdown(in, &end->list, field, rig, bone, 0);
-    const bool picking = in->core->pick.use == end->use && in->core->pick.which == rig;
+    const bool picking = in->core->focus.pick.use == end->use && in->core->focus.pick.which == rig;
     if (ui_icon_button(&in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
         bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
 }
@@ -550,7 +552,7 @@ void inspector_tail(struct inspector *in)
         if (ui_button(ui, field, "tail.name", rig_title(rig), false)) ui_line_begin(ui, rename_line, rig_title(rig));
     } else if (ui_line(ui, named, rename_line) == UI_LINE_DONE &&
                core_step(in->core, is_tail ? "Rename tail" : "Rename chain", 0)) {
-        edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->error);
+        edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->step.error);
     }
     if (is_tail) {
         inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);
@@ -565,7 +567,7 @@ void inspector_tail(struct inspector *in)
         const struct rect r = inspector_labelled(in, "mirror");
         ui_hint(ui, r, "Bend to the other side, as a left ear does to a right one");
         if (ui_toggle(ui, r, "chain.mirror", &changed.chain.mirror) && core_step(in->core, "Mirror chain", 0))
-            edit_rig_set(in->core->document, in->rig, &changed, &in->core->error);
+            edit_rig_set(in->core->document, in->rig, &changed, &in->core->step.error);
     }
     if (!is_tail && bones_mirrorable(in->core, in->rig) == in->rig) {
         const struct rect row = ui_row(ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
@@ -578,7 +580,7 @@ void inspector_tail(struct inspector *in)
     if (document_tail(in->core->document, 0)) {
         const struct rect r = inspector_labelled(in, "record");
         ui_hint(ui, r, "Record the next drag of the body as knots (or press R while dragging)");
-        ui_toggle(ui, r, "record", &in->core->record_armed);
+        ui_toggle(ui, r, "record", &in->core->step.record_armed);
     }
     build_overlays(in);
 }
@@ -586,7 +588,7 @@ void inspector_tail(struct inspector *in)
 const struct channel *inspector_felt_channel(const struct inspector *in)
 {
     const struct channel *channel = chosen_channel(in);
-    return channel && channel->spline == in->core->active ? channel : NULL;
+    return channel && channel->spline == in->core->focus.active ? channel : NULL;
 }
 
 enum { MAX_COORDINATES = 32 }; ///< coordinates in the add list
@@ -594,10 +596,10 @@ enum { MAX_COORDINATES = 32 }; ///< coordinates in the add list
 /// Selects a channel and the spline that drives it.
 static void choose_drive(struct inspector *in, int drive)
 {
-    const struct character_view *view = &in->core->characters;
+    const struct character_view *view = &in->core->focus.characters;
     const struct character_rig *rig = document_character(in->core->document, view->character);
     core_choose(in->core, rig->drives[drive].spline);
-    in->core->characters.drive = drive; // two channels may share a spline
+    in->core->focus.characters.drive = drive; // two channels may share a spline
 }
 
 static void build_drives(struct inspector *in, const struct character_rig *rig)
@@ -615,11 +617,11 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
         r.w -= r.h + 4;
         ui_hint(ui, r, "A channel of this character, and the spline that drives it");
         const uint32_t color = spline_list_color(in->core->document, drive->spline);
-        if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose_drive(in, k);
+        if (ui_list_row(ui, r, name, text, color, k == in->core->focus.characters.drive)) choose_drive(in, k);
         if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this channel")) continue;
         const int owner = characters_rig(in->core);
         if (core_step(in->core, "Remove channel", 0))
-            edit_drive_remove(in->core->document, owner, k, &in->core->error);
+            edit_drive_remove(in->core->document, owner, k, &in->core->step.error);
         return;
     }
 }
@@ -627,10 +629,10 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
 /// The coordinate the active spline drives, if that is the selected one.
 static const void *felt_drive(const struct inspector *in)
 {
-    const struct character_view *view = &in->core->characters;
+    const struct character_view *view = &in->core->focus.characters;
     const struct character_rig *rig = document_character(in->core->document, view->character);
     if (!rig || view->drive >= rig->drive_count) return NULL;
-    return rig->drives[view->drive].spline == in->core->active ? &rig->drives[view->drive] : NULL;
+    return rig->drives[view->drive].spline == in->core->focus.active ? &rig->drives[view->drive] : NULL;
 }
 
 static const struct number_row drive_rows[] = {
@@ -646,7 +648,7 @@ static const struct number_row drive_rows[] = {
 static double was_drive(const struct inspector *in, int which)
 {
     const struct rig *kept = take_rig(in->core, characters_rig(in->core));
-    const int drive = in->core->characters.drive;
+    const int drive = in->core->focus.characters.drive;
     return kept && drive < kept->character.drive_count ? number_at(&drive_rows[which], &kept->character.drives[drive])
                                                        : NAN;
 }
@@ -654,13 +656,13 @@ static double was_drive(const struct inspector *in, int which)
 /// Edits the selected coordinate's drive.
 static bool set_drive(struct inspector *in, const struct drive *drive, struct error *error)
 {
-    return edit_drive(in->core->document, characters_rig(in->core), in->core->characters.drive, drive, error);
+    return edit_drive(in->core->document, characters_rig(in->core), in->core->focus.characters.drive, drive, error);
 }
 
 /// The lags of a limb's other drives go with it.
 static bool set_drive_number(struct inspector *in, int which, double number, struct error *error)
 {
-    const int owner = characters_rig(in->core), chosen = in->core->characters.drive;
+    const int owner = characters_rig(in->core), chosen = in->core->focus.characters.drive;
     const struct drive *before = felt_drive(in);
     const double lag = before->lag;
     struct drive drive = *before;
@@ -685,10 +687,10 @@ bool inspector_felt_drive(struct inspector *in)
 
 static void choose_spline(struct inspector *in, const struct dropdown *list)
 {
-    struct drive next = characters_selected(in->core)->drives[in->core->characters.drive];
+    struct drive next = characters_selected(in->core)->drives[in->core->focus.characters.drive];
     next.spline = inspector_spline_list(in, list, next.spline);
     if (next.spline < 0 || !core_step(in->core, "Set spline", 0)) return;
-    if (set_drive(in, &next, &in->core->error)) choose_drive(in, in->core->characters.drive);
+    if (set_drive(in, &next, &in->core->step.error)) choose_drive(in, in->core->focus.characters.drive);
 }
 
 static const struct dropdown spline_list = {"drive.splines", "The spline that drives this channel", choose_spline};
@@ -697,7 +699,7 @@ static const struct dropdown spline_list = {"drive.splines", "The spline that dr
 static int free_coordinates(const struct inspector *in, const struct character_rig *rig,
                             struct ui_item items[MAX_COORDINATES])
 {
-    const struct figure *figure = models_figure(in->core->models, in->core->characters.character);
+    const struct figure *figure = models_figure(in->core->models, in->core->focus.characters.character);
     int count = 0;
     if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
     for (int k = 0; k < figure->character.coordinate_count && count < MAX_COORDINATES; k++) {
@@ -716,9 +718,11 @@ static void add_coordinate(struct inspector *in, const struct dropdown *list)
     const int picked = ui_popup_list(&in->ui, list->name, items, count, -1), owner = characters_rig(in->core);
     if (picked < 0) return;
     char *name = need_text(items[picked].name);
-    const struct drive drive = {
-        .name = name, .spline = in->core->active >= 0 ? in->core->active : 0, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-    if (core_step(in->core, "Add channel", 0)) edit_drive(in->core->document, owner, -1, &drive, &in->core->error);
+    const struct drive drive = {.name = name,
+                                .spline = in->core->focus.active >= 0 ? in->core->focus.active : 0,
+                                .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+    if (core_step(in->core, "Add channel", 0))
+        edit_drive(in->core->document, owner, -1, &drive, &in->core->step.error);
     free(name);
 }
 
@@ -736,7 +740,7 @@ static const struct number_row floor_rows[] = {
 static void build_modes(struct inspector *in, const char *name, const char *hint, enum brush_mode first,
                         const struct ui_choice *choices, int count)
 {
-    struct brush *brush = &in->core->brush;
+    struct brush *brush = &in->core->focus.brush;
     const struct rect r = ui_row(&in->ui, UI_ROW);
     const int chosen = (int)brush->mode - (int)first;
     int index = chosen >= 0 && chosen < count ? chosen : -1;
@@ -747,7 +751,7 @@ static void build_modes(struct inspector *in, const char *name, const char *hint
 /// The brush's numbers are fractions, shown in percent.
 static double *share_of(const struct inspector *in, int which)
 {
-    struct brush *brush = &in->core->brush;
+    struct brush *brush = &in->core->focus.brush;
     return which == 0 ? &brush->radius : &brush->strength;
 }
 
@@ -776,7 +780,7 @@ static void build_brush(struct inspector *in)
         {"more", "Swing more"}, {"less", "Swing less"}, {"smooth", "Smooth"}};
     static const struct ui_choice erase[] = {{"all", "Erase"}};
     static const struct number_home home = {.get = get_share, .set = set_share};
-    struct brush *brush = &in->core->brush;
+    struct brush *brush = &in->core->focus.brush;
     int on = brush->on;
     if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (Shift+B)", "paint", switches, 2,
                          &on))
@@ -800,7 +804,7 @@ void inspector_character(struct inspector *in)
     static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
     static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "On"}};
     static const struct number_home home = {.rig = shown_character};
-    struct character_view *view = &in->core->characters;
+    struct character_view *view = &in->core->focus.characters;
     inspector_find_rig(in); // a row may have removed one
     const struct character_rig *rig = document_character(in->core->document, view->character);
     struct ui_item items[MAX_COORDINATES];
@@ -831,7 +835,7 @@ void inspector_character(struct inspector *in)
         changed.character.has_floor = floor;
         if (floor) changed.character.floor = rig->position[1];
         if (core_step(in->core, floor ? "Set floor" : "Remove floor", 0))
-            edit_rig_set(in->core->document, owner, &changed, &in->core->error);
+            edit_rig_set(in->core->document, owner, &changed, &in->core->step.error);
     } else if (rig->has_floor) {
         inspector_numbers(in, floor_rows, 1, &home);
         const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);
@@ -851,7 +855,7 @@ void inspector_character(struct inspector *in)
     if (inspector_choice(in, "stiff twin", "Show a second character without phases: all its points move in step",
                          "twin", pairs, 2, &pair)) {
         view->compare = pair;
-        in->core->refit_stage = true;
+        in->core->view.refit_stage = true;
     }
     build_overlays(in);
     build_brush(in);

@@ -22,7 +22,8 @@ static const char hex_line[] = "color.hex";
 
 static void set_color(struct inspector *in, int spline, int color)
 {
-    if (core_step(in->core, "Set colour", 0)) edit_spline_color(in->core->document, spline, color, &in->core->error);
+    if (core_step(in->core, "Set colour", 0))
+        edit_spline_color(in->core->document, spline, color, &in->core->step.error);
 }
 
 static void build_palette(struct inspector *in, const struct dropdown *list)
@@ -87,14 +88,14 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     struct ui *ui = &in->ui;
     struct core *core = in->core;
     const struct spline *spline = core->document->splines[s];
-    bool active = s == core->active, dropped = false;
+    bool active = s == core->focus.active, dropped = false;
     char name[UI_NAME_SIZE];
     snprintf(name, sizeof name, "spline.%s", spline->name);
-    const float right = core->more ? 2 * INSPECTOR_ICON : KIND;
+    const float right = core->view.more ? 2 * INSPECTOR_ICON : KIND;
     struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - right, r.h};
     if (active && ui_line_is_open(ui, rename_line)) {
         if (ui_line(ui, label, rename_line) == UI_LINE_DONE && core_step(core, "Rename spline", 0))
-            edit_spline_name(core->document, s, ui->text.bytes, &core->error);
+            edit_spline_name(core->document, s, ui->text.bytes, &core->step.error);
     } else {
         ui_hint(ui, label, "Click to edit (PgUp, PgDn), M for another kind, F2 to rename, drag to reorder");
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
@@ -106,7 +107,7 @@ static bool build_row(struct inspector *in, int s, struct rect r)
         dropped = event == UI_ROW_DROPPED;
     }
     struct rect swatch = {r.x, r.y, SWATCH, r.h};
-    if (!core->more) {
+    if (!core->view.more) {
         const struct rect chip = {r.x + (SWATCH - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
         if (ui->pass == UI_PASS_DRAW) drawlist_rounded(ui->list, chip, 3, spline_list_color(core->document, s));
         ui_label_right(ui, (struct rect){label.x + label.w, r.y, KIND - 4, r.h},
@@ -117,15 +118,15 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     ui_hint(ui, swatch, palette.hint);
     ui_swatch(ui, swatch, name, palette.name, (int)spline->id, spline_list_color(core->document, s));
     inspector_offer(in, &palette);
-    const bool solo = selection_has(&core->solo, spline->id), shown = spline_list_shows(core, s);
+    const bool solo = selection_has(&core->view.solo, spline->id), shown = spline_list_shows(core, s);
     struct rect icon = {r.x + r.w - 2 * INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     snprintf(name, sizeof name, "solo.%s", spline->name);
     if (ui_icon_button(ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve"))
-        spline_list_flip(core, &core->solo, s);
+        spline_list_flip(core, &core->view.solo, s);
     icon.x += INSPECTOR_ICON;
     snprintf(name, sizeof name, "eye.%s", spline->name);
     if (ui_icon_button(ui, icon, name, shown ? UI_ICON_EYE : UI_ICON_EYE_CLOSED, false, "Show or hide this curve"))
-        spline_list_flip(core, &core->hidden, s);
+        spline_list_flip(core, &core->view.hidden, s);
     return dropped;
 }
 
@@ -140,7 +141,7 @@ void inspector_splines(struct inspector *in)
     };
     struct ui *ui = &in->ui;
     const int count = in->core->document->spline_count,
-              first = inspector_first_row(count, in->core->active, MAX_ROWS);
+              first = inspector_first_row(count, in->core->focus.active, MAX_ROWS);
     int from = -1, dropped = -1;
     if (count == 0) ui_paragraph(ui, "This scene has no splines yet.", theme()->text_dim);
     int rows = count < MAX_ROWS ? count : MAX_ROWS;
@@ -165,12 +166,12 @@ void inspector_splines(struct inspector *in)
     inspector_more(in, count, MAX_ROWS, " splines; PgUp and PgDn show more");
 
     struct core *core = in->core;
-    const int offered = core->more ? sizeof buttons / sizeof buttons[0] : 1;
+    const int offered = core->view.more ? sizeof buttons / sizeof buttons[0] : 1;
     const int pressed = inspector_icons(in, ui_row(ui, UI_ROW), buttons, offered);
     if (pressed == 0) spline_list_add(core);
     if (pressed == 1) spline_list_copy(core);
     if (pressed == 2) spline_list_remove(core);
-    if (pressed >= 3) spline_list_move(core, core->active, core->active + (pressed == 3 ? -1 : 1));
+    if (pressed >= 3) spline_list_move(core, core->focus.active, core->focus.active + (pressed == 3 ? -1 : 1));
 }
 
 static const struct preset {
@@ -198,7 +199,7 @@ int inspector_limb(const struct inspector *in) { return in->alone ? -1 : core_li
 const char *inspector_feel_title(struct inspector *in)
 {
     const struct document *document = in->core->document;
-    const bool alone = in->ui.held || in->ui.typing ? in->alone : in->core->mods & MOD_ALT;
+    const bool alone = in->ui.held || in->ui.typing ? in->alone : in->core->input.mods & MOD_ALT;
     const int limb = alone ? -1 : core_limb(in->core), size = sizeof in->feel_title;
     const char *name = limb >= 0 ? rig_title(document->rigs[limb]) : core_active_spline(in->core)->name;
     int splines = 0;
@@ -210,7 +211,7 @@ const char *inspector_feel_title(struct inspector *in)
 
 static bool set_felt(struct inspector *in, enum parameter parameter, double value, bool alike)
 {
-    return core_set_felt(in->core, inspector_limb(in), parameter, value, alike, &in->core->error);
+    return core_set_felt(in->core, inspector_limb(in), parameter, value, alike, &in->core->step.error);
 }
 
 static void apply_preset(struct inspector *in, const struct preset *preset)
@@ -218,7 +219,7 @@ static void apply_preset(struct inspector *in, const struct preset *preset)
     const struct spline *spline = core_active_spline(in->core);
     if (!core_step(in->core, "Choose a feel", 0)) return;
     bool good = (spline_mode(spline) != WIGGLY_CUBIC ||
-                 core_set_parameter(in->core, in->core->active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
+                 core_set_parameter(in->core, in->core->focus.active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
                 set_felt(in, PARAMETER_FREQUENCY, preset->frequency, false) &&
                 set_felt(in, PARAMETER_DAMPING, preset->damping, true) &&
                 set_felt(in, PARAMETER_WIND_UP, preset->wind_up, true);
@@ -232,9 +233,9 @@ static void apply_preset(struct inspector *in, const struct preset *preset)
         const bool others = limb == in->rig && rig_point_input(in->core->document->rigs[limb], c) >= 0;
         const struct channel_place at = {in->rig, c};
         if (c == in->channel || others)
-            good = edit_angles(in->core->document, at, ANGLE_LAG, &angles, &in->core->error);
+            good = edit_angles(in->core->document, at, ANGLE_LAG, &angles, &in->core->step.error);
     }
-    core_edited(in->core, in->core->active);
+    core_edited(in->core, in->core->focus.active);
 }
 
 void inspector_preset(struct inspector *in, int preset)
@@ -293,7 +294,7 @@ static double damping_for(const struct spline *spline, double seconds, double st
 /// The active spline as it was before, or NULL.
 static const struct spline *kept_spline(const struct inspector *in)
 {
-    const int kept = take_spline(in->core, in->core->active);
+    const int kept = take_spline(in->core, in->core->focus.active);
     return kept >= 0 ? in->core->take.document->splines[kept] : NULL;
 }
 
@@ -433,7 +434,7 @@ static void build_wind_up(struct inspector *in)
                                       .fallback = row->fresh * period_frames(in),
                                       .step = row->step};
     struct rect r = ui_row(&in->ui, UI_ROW);
-    if (in->core->more) r.w -= UI_ROW + 2; // lines up, too
+    if (in->core->view.more) r.w -= UI_ROW + 2; // lines up, too
     inspector_number(in, &number, &home, 0, r);
 }
 
@@ -444,7 +445,7 @@ static void build_sentence(struct inspector *in)
     const bool kept = spline != core_active_spline(in->core);
     const struct document *document = kept ? in->core->take.document : in->core->document;
     const struct evaluation *evaluation = kept ? &in->core->take.evaluation : in->core->evaluation;
-    const int active = kept ? take_spline(in->core, in->core->active) : in->core->active;
+    const int active = kept ? take_spline(in->core, in->core->focus.active) : in->core->focus.active;
     char text[128];
     struct settling settling = settle_alone(spline, document_step(document));
     if (evaluation && active < evaluation->count && spline->knot_count > 0) {
@@ -498,7 +499,7 @@ void inspector_feel(struct inspector *in)
             inspector_idle(in, parameter_rows[pace[i]].name, "–");
         }
     }
-    if (in->core->more) build_settle(in);
+    if (in->core->view.more) build_settle(in);
     build_wind_up(in);
 
     // Lag and gain of the channel or coordinate it drives; below each is room for the highest curve of any spline.
@@ -513,7 +514,8 @@ void inspector_feel(struct inspector *in)
     const struct spline *spline = core_active_spline(in->core);
     const struct evaluation *evaluation = in->core->evaluation;
     char text[EVALUATION_SENTENCE];
-    if (evaluation && in->core->active < evaluation->count && evaluation_sentence(evaluation, in->core->active, text))
+    if (evaluation && in->core->focus.active < evaluation->count &&
+        evaluation_sentence(evaluation, in->core->focus.active, text))
         ui_paragraph(ui, text, theme()->warning);
     const struct param *p = spline->parameter;
     const double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
@@ -526,7 +528,7 @@ void inspector_feel(struct inspector *in)
     }
     if (ui->y == top) build_sentence(in);
     ui->y = fmaxf(ui->y, top + TEXT);
-    if (!in->core->more) return;
+    if (!in->core->view.more) return;
     const struct rect line = ui_row(ui, UI_ROW), r = {line.x, line.y + 1, line.w, line.h - 2};
     ui_hint(ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
     if (ui_button(ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
@@ -553,7 +555,7 @@ static bool put_parameter(struct inspector *in, int parameter, double number, st
 static void set_parameter(struct inspector *in, enum parameter parameter, double number)
 {
     if (core_step(in->core, parameter_rows[parameter].undo, 0))
-        put_parameter(in, (int)parameter, number, &in->core->error);
+        put_parameter(in, (int)parameter, number, &in->core->step.error);
 }
 
 static void build_slider(struct inspector *in, enum parameter parameter, struct rect r)
@@ -603,7 +605,7 @@ static void choose_joint(struct inspector *in, const struct dropdown *list)
     const int model = document_find_model(in->core->document, motion->model, motion->by_file);
     if (model < 0 || !bones_character(in->core, model)) return;
     const int node = inspector_bone_list(in, list, model, -1, motion->joint);
-    if (node >= 0) bones_follow(in->core, in->core->active, model, node);
+    if (node >= 0) bones_follow(in->core, in->core->focus.active, model, node);
 }
 
 static const struct dropdown joint_list = {"joint", "The joint it follows through the clip", choose_joint};
@@ -611,7 +613,7 @@ static const struct dropdown joint_list = {"joint", "The joint it follows throug
 static void set_track(struct inspector *in, enum parameter parameter, struct param param)
 {
     if (core_step(in->core, param_follows(&param) ? "Follow spline" : "Stop following", 0))
-        edit_parameter(in->core->document, in->core->active, parameter, &param, &in->core->error);
+        edit_parameter(in->core->document, in->core->focus.active, parameter, &param, &in->core->step.error);
 }
 
 /// Marks splines the active one cannot follow without a cycle; true if any is left.
@@ -620,7 +622,7 @@ static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX
     int count = in->core->document->spline_count < INSPECTOR_MAX_SPLINES ? in->core->document->spline_count
                                                                          : INSPECTOR_MAX_SPLINES;
     bool any = false;
-    scene_followers(in->core->document, in->core->active, left_out, count);
+    scene_followers(in->core->document, in->core->focus.active, left_out, count);
     for (int s = 0; s < count; s++) any |= !left_out[s];
     return any;
 }
@@ -650,7 +652,7 @@ static void choose_track(struct inspector *in, const struct dropdown *list)
     }
     const int picked = ui_popup_list(ui, list->name, items, count + more, row);
     if (picked >= count) {
-        bones_follow(in->core, in->core->active, models[picked - count], -1);
+        bones_follow(in->core, in->core->focus.active, models[picked - count], -1);
     } else if (picked >= 0) {
         set_track(in, parameter, param_track(splines[picked]));
     }
@@ -662,13 +664,13 @@ static const struct dropdown track_list = {"follow", "The spline it follows, sam
 static void build_joint_field(struct inspector *in, const struct joint_motion *motion, struct rect field)
 {
     struct rect icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
-    const int active = in->core->active;
+    const int active = in->core->focus.active;
     const int model = document_find_model(in->core->document, motion->model, motion->by_file);
     char title[BONES_TITLE];
     const char *text = model < 0 ? motion->joint : bones_title(in->core->document, model, motion->joint, title);
     field.w -= INSPECTOR_ICON + 4;
     inspector_dropdown(in, &joint_list, field, 0, text, 0);
-    const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
+    const bool picking = in->core->focus.pick.use == BONE_FOLLOWED && in->core->focus.pick.which == active;
     if (ui_icon_button(&in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
         bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
 }
@@ -676,7 +678,7 @@ static void build_joint_field(struct inspector *in, const struct joint_motion *m
 /// The button at the right of a row: follows a spline from a list, or stops following.
 static void build_track_button(struct inspector *in, enum parameter parameter, struct rect r, struct rect row)
 {
-    const int active = in->core->active;
+    const int active = in->core->focus.active;
     const bool follows = param_follows(&in->core->document->splines[active]->parameter[parameter]);
     const bool joints =
         parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->core->document, RIG_MODEL, 0) >= 0;
@@ -700,7 +702,7 @@ static void build_track_button(struct inspector *in, enum parameter parameter, s
 
 static bool follow_joint(struct inspector *in, const struct param *param, struct error *error)
 {
-    return edit_parameter(in->core->document, in->core->active, PARAMETER_EQUILIBRIUM, param, error);
+    return edit_parameter(in->core->document, in->core->focus.active, PARAMETER_EQUILIBRIUM, param, error);
 }
 
 static const void *followed_gain(const struct inspector *in) { return followed(in)->motion; }
@@ -738,7 +740,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
 
     struct rect r = ui_row(&in->ui, UI_ROW);
     const bool follows = param_follows(&spline->parameter[parameter]);
-    const bool may_follow = row->kind == PARAMETER_TRACK && (in->core->more || follows);
+    const bool may_follow = row->kind == PARAMETER_TRACK && (in->core->view.more || follows);
     if (may_follow) r.w -= UI_ROW + 2;
     const struct param *param = &spline->parameter[parameter];
     const struct rect field = follows ? inspector_label(in, r, row->name) : r;
@@ -764,7 +766,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
         if (inspector_choice(in, "joint's", "Its turn in degrees, or its movement across or up in metres", "joint.of",
                              motions, MOTION_KINDS, &of)) {
             motion.of = (enum motion_of)of;
-            if (core_step(in->core, "Set joint's motion", 0)) follow_joint(in, &changed, &in->core->error);
+            if (core_step(in->core, "Set joint's motion", 0)) follow_joint(in, &changed, &in->core->step.error);
         }
     }
     if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
@@ -788,7 +790,7 @@ void inspector_spline(struct inspector *in)
 void inspector_advanced(struct inspector *in)
 {
     static const enum parameter shown[] = {PARAMETER_BANDWIDTH, PARAMETER_CALM, PARAMETER_PASSIVE};
-    const bool calm = spline_uses_calm(in->core->document, in->core->active);
+    const bool calm = spline_uses_calm(in->core->document, in->core->focus.active);
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
         if (shown[i] != PARAMETER_CALM || calm) inspector_parameter(in, shown[i]);
     }
@@ -827,11 +829,11 @@ static void roll(struct inspector *in, const struct spline *spline)
     const int most = (int)parameter_rows[PARAMETER_SEED].maximum + 1;
     const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
     const bool is_new = spline->parameter[PARAMETER_VARIATION].value == 0;
-    const int active = in->core->active;
+    const int active = in->core->focus.active;
     if (!core_step(in->core, "Roll variation", 0)) return;
     core_set_parameter(in->core, active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
     if (is_new) core_set_parameter(in->core, active, PARAMETER_VARIATION, FRESH_VARIATION);
-    core_edited(in->core, in->core->active);
+    core_edited(in->core, in->core->focus.active);
 }
 
 void inspector_roll(struct inspector *in, int unused)

@@ -24,7 +24,7 @@
 
 static const struct drag_owner body_owner; ///< of a body; its functions come last
 
-static bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
+static bool body_is_held(const struct core *core) { return core->input.drag.owner == &body_owner; }
 
 /// A rig's tail; NULL if it is none or gone.
 static struct tail *tail_of(const struct document *document, int rig)
@@ -48,8 +48,9 @@ void drag_inertia_advance(struct stage *stage, const struct core *core, double d
     const struct document *document = core->document;
     const struct posing posing = stage_posing(core);
     if (!(dt > 0)) return;
-    if (core->look == LOOK_CUBIC) memset(stage->inertia, 0, sizeof stage->inertia); // a cubic has no restoring force
-    for (int r = 0; r < document->rig_count && core->look != LOOK_CUBIC; r++) {
+    if (core->view.look == LOOK_CUBIC)
+        memset(stage->inertia, 0, sizeof stage->inertia); // a cubic has no restoring force
+    for (int r = 0; r < document->rig_count && core->view.look != LOOK_CUBIC; r++) {
         const unsigned id = document->rigs[r]->id;
         double offset[3], kick[3];
         bool moves = false;
@@ -83,7 +84,8 @@ void drag_inertia_advance(struct stage *stage, const struct core *core, double d
             for (int p = 0; p < PARAMETER_COUNT; p++) {
                 const struct param *param = &spline->parameter[p];
                 wiggly_value value = {.y = param->value};
-                if (param->track >= 0) value = evaluation_at(core->evaluation, param->track, core->playback.position);
+                if (param->track >= 0)
+                    value = evaluation_at(core->evaluation, param->track, core->view.playback.position);
                 parameter[p] = value.y + value.re;
             }
             inertia->scale[c] = 0;
@@ -175,7 +177,7 @@ static int base_spline(const struct stage *stage, struct core *core, int coordin
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
     snprintf(name, sizeof name, "%.*s %s", name_fit(core->document->rigs[rig]->name, 250),
              core->document->rigs[rig]->name, coordinate_name(coordinate));
-    if (!edit_spline_add(core->document, -1, name, NULL, &core->error)) return -1;
+    if (!edit_spline_add(core->document, -1, name, NULL, &core->step.error)) return -1;
     const int spline = core->document->spline_count - 1;
     core_set_parameter(core, spline, PARAMETER_MODE, WIGGLY_CUBIC);
     if (stage->body_drag.loops) core_set_parameter(core, spline, PARAMETER_START, WIGGLY_LOOP);
@@ -201,13 +203,13 @@ static void coordinate_follow(const struct stage *stage, struct core *core, int 
     const int rig = stage->body_drag.rig;
     struct rig moved = *core->document->rigs[rig];
     moved.tail.position[coordinate] = param_track(base);
-    edit_rig_set(core->document, rig, &moved, &core->error);
+    edit_rig_set(core->document, rig, &moved, &core->step.error);
 }
 
 static void equilibrium_follow(struct core *core, int spline, int base)
 {
     const struct param param = param_track(base);
-    edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
+    edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->step.error);
 }
 
 /// Adds a displacement channel about the axis and with the angles of a model channel; returns its spline, or -1. The spline has the poles
@@ -216,14 +218,14 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
                        double scale, int base)
 {
     struct document *document = core->document;
-    if (!edit_spline_add(document, -1, name, NULL, &core->error)) return -1;
+    if (!edit_spline_add(document, -1, name, NULL, &core->step.error)) return -1;
     const int spline = document->spline_count - 1;
     const struct spline *copied = document->splines[model->spline];
     const bool loops = spline_start(copied) == WIGGLY_LOOP;
     core_set_parameter(core, spline, PARAMETER_MODE, spline_mode(copied));
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         if (p != PARAMETER_EQUILIBRIUM && p != PARAMETER_START)
-            edit_parameter(document, spline, p, &copied->parameter[p], &core->error);
+            edit_parameter(document, spline, p, &copied->parameter[p], &core->step.error);
     }
     core_set_parameter(core, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
     equilibrium_follow(core, spline, base);
@@ -233,10 +235,10 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
     for (int i = 0; i < angles_count(&gain); i++)
         angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
     const int rig = stage->body_drag.rig;
-    if (!edit_channel_add(document, rig, spline, model->axis, PART_DISPLACEMENT, &core->error)) return -1;
+    if (!edit_channel_add(document, rig, spline, model->axis, PART_DISPLACEMENT, &core->step.error)) return -1;
     const struct channel_place added = {rig, document->rigs[rig]->tail.channel_count - 1};
-    edit_angles(document, added, ANGLE_LAG, &lag, &core->error);
-    edit_angles(document, added, ANGLE_GAIN, &gain, &core->error);
+    edit_angles(document, added, ANGLE_LAG, &lag, &core->step.error);
+    edit_angles(document, added, ANGLE_GAIN, &gain, &core->step.error);
     return spline;
 }
 
@@ -312,7 +314,7 @@ static double along_axis(const struct body_drag *hold, const double axis[2], dou
 /// The pointer's movement of the held body in metres, before limits; 0 if none is held.
 static void body_drag_way(const struct stage *stage, const struct core *core, double offset[3])
 {
-    const struct drag *drag = &core->drag;
+    const struct drag *drag = &core->input.drag;
     const struct body_drag *hold = &stage->body_drag;
     offset[0] = offset[1] = offset[2] = 0;
     if (!body_is_held(core) || !drag->moved) return;
@@ -336,8 +338,8 @@ static void record_begin(struct stage *stage, struct core *core)
 {
     struct record *record = &stage->record;
     if (record->running) return;
-    *record = (struct record){.running = true, .first = (int)ceil(core->playback.position)};
-    core->playback.playing = true;
+    *record = (struct record){.running = true, .first = (int)ceil(core->view.playback.position)};
+    core->view.playback.playing = true;
     core_message(core, false, "Recording the body: release to keep it.");
 }
 
@@ -345,10 +347,10 @@ void record_advance(struct stage *stage, const struct core *core)
 {
     struct record *record = &stage->record;
     if (!record->running || !body_is_held(core)) return;
-    double offset[3], position = core->playback.position;
+    double offset[3], position = core->view.playback.position;
     body_drag_way(stage, core, offset);
     int next = record->first + record->count;
-    bool ended = position < next - 1 || !core->playback.playing || record->count == RECORD_SAMPLES ||
+    bool ended = position < next - 1 || !core->view.playback.playing || record->count == RECORD_SAMPLES ||
                  next >= document_samples(core->document);
     if (ended) {
         record->running = false;
@@ -437,7 +439,7 @@ static int key_way(const struct stage *stage, struct core *core, int coordinate,
         const int at = spline_lower_bound(document, cleared, record->first);
         clears = at < cleared->knot_count &&
                  document_sample(document, cleared->knots[at].frame) <= record->first + count - 1 &&
-                 edit_knot_remove(core->document, spline, cleared->knots[at].id, &core->error);
+                 edit_knot_remove(core->document, spline, cleared->knots[at].id, &core->step.error);
     }
     for (int i = 0; i < made; i++) {
         base_put_knot(core, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1, why);
@@ -458,7 +460,7 @@ enum { MARGIN = 12, HEIGHT = 22, PAD = 8, DOT = 10, MAX_POINTS = 256 };
 /// In the top right corner, below the caption.
 static void show_sign(struct core *core, bool runs, const char *text)
 {
-    const struct rect stage = core->layout.stage;
+    const struct rect stage = core->view.layout.stage;
     const float width = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_NORMAL, text)) + DOT + 3 * PAD;
     const struct rect sign = {stage.x + stage.w - MARGIN - width,
                               stage.y + fmaxf(MARGIN, caption_height(stage, core->document)), width, HEIGHT};
@@ -478,13 +480,15 @@ void record_show(struct stage *stage, struct core *core)
     const struct document *document = core->document;
     const struct record *record = &stage->record;
     const bool is_held = body_is_held(core);
-    const int rig = is_held ? stage->body_drag.rig : core->hover.rig;
-    const struct tail *shown = is_held || core->hover.thing == &thing_body ? tail_of(document, rig) : NULL;
+    const int rig = is_held ? stage->body_drag.rig : core->input.hover.rig;
+    const struct tail *shown = is_held || core->input.hover.thing == &thing_body ? tail_of(document, rig) : NULL;
     bool moves = false;
     for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
-    if (moves && !core->overlays.trail) path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
+    if (moves && !core->view.overlays.trail)
+        path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
     if (!is_held || !record->running) {
-        if (core->record_armed && document_tail(document, 0)) show_sign(core, false, "Drag the body to record it");
+        if (core->step.record_armed && document_tail(document, 0))
+            show_sign(core, false, "Drag the body to record it");
         return;
     }
 
@@ -500,7 +504,7 @@ void record_show(struct stage *stage, struct core *core)
             const double value = param->track >= 0 ? base_value(core, rig, k, record->first + i) : param->value;
             place[k] = (float)(value + record->way[k][i]);
         }
-        seen = stage_project_point(stage, core->layout.stage, place, points[count++]);
+        seen = stage_project_point(stage, core->view.layout.stage, place, points[count++]);
     }
     if (seen && count > 1) drawlist_line(&core->list, (const float *)points, count, 2, theme()->error);
     char text[32];
@@ -554,7 +558,7 @@ static double shift_coordinate(struct core *core, int rig, int coordinate, doubl
         const double to = core_round(from + way, RESOLUTION);
         if (tail) moved.tail.position[coordinate] = param_number(to);
         if (!tail) moved.model.position[coordinate] = to;
-        return edit_rig_set(core->document, rig, &moved, &core->error) || tail ? way : 0;
+        return edit_rig_set(core->document, rig, &moved, &core->step.error) || tail ? way : 0;
     }
     const int count = core->document->splines[spline]->knot_count;
     const struct knot *stops;
@@ -587,7 +591,7 @@ static void place_body(struct stage *stage, struct core *core)
     const int rig = stage->body_drag.rig;
     double offset[3];
     body_drag_way(stage, core, offset);
-    const bool is_tail = tail_of(core->document, rig), keys = core->auto_key && is_tail;
+    const bool is_tail = tail_of(core->document, rig), keys = core->step.auto_key && is_tail;
     char report[REPORT_SIZE] = "", why[STOPPED_SIZE] = "";
     bool any = false;
     int swings = -1;
@@ -654,7 +658,7 @@ void body_drag_advance(struct stage *stage, const struct core *core)
 
     // As the splines' limits will limit it in place_body() or a recording.
     const struct tail *tail = tail_of(document, stage->body_drag.rig);
-    const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
+    const bool keys = core->step.auto_key || stage->record.running || record_has_motion(stage);
     if (!tail) offset[1] = 0; // a character stays on its ground
     for (int k = 0; tail && k < 3; k++) {
         const int track = tail->position[k].track;
@@ -695,7 +699,7 @@ static bool find_stand(const struct stage *stage, const struct core *core, int r
     const struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose pose;
     float lo[3], hi[3];
-    if (!rig_pose(&posing, rig, core->playback.position, NULL, &pose)) return false;
+    if (!rig_pose(&posing, rig, core->view.playback.position, NULL, &pose)) return false;
     if (pose.kind == RIG_TAIL) {
         const float *base = pose.strand.matrix[0] + 12, scale = pose.strand.scale;
         *stand = (struct stand){{base[0], base[1], base[2]},
@@ -785,7 +789,7 @@ static bool find_body(void *room, const struct core *core, const struct target *
         const mat4s moved = mat4_from(fox->pose->joints[point == 1 ? LIMB_HEAD : LIMB_BODY]);
         const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
         const vec3s place = glms_mat4_mulv3(mat4_from(fox->root), at, 1.0f);
-        if (!stage_project_point(stage, core->layout.stage, place.raw, xy)) continue;
+        if (!stage_project_point(stage, core->view.layout.stage, place.raw, xy)) continue;
         const struct hover hover = stage_hover(room, core, xy[0], xy[1]);
         if (hover.thing == &thing_body && hover.rig == target->rig) return true;
     }
@@ -795,9 +799,9 @@ static bool find_body(void *room, const struct core *core, const struct target *
 void body_drag_show(struct stage *stage, struct core *core)
 {
     const bool held = body_is_held(core);
-    const int rig = held ? stage->body_drag.rig : core->hover.rig;
+    const int rig = held ? stage->body_drag.rig : core->input.hover.rig;
     struct stand stand;
-    if (!held && core->hover.thing != &thing_body) return;
+    if (!held && core->input.hover.thing != &thing_body) return;
     if (!find_stand(stage, core, rig, &stand)) return;
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
@@ -805,7 +809,7 @@ void body_drag_show(struct stage *stage, struct core *core)
         float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
         const float place[3] = {stand.middle[0] - stand.radius * maths_sinf(-angle), stand.ground,
                                 stand.middle[1] - stand.radius * maths_cosf(-angle)};
-        if (!stage_project_point(stage, core->layout.stage, place, point[i])) return;
+        if (!stage_project_point(stage, core->view.layout.stage, place, point[i])) return;
     }
     const int half = RING_POINTS / 2;
     drawlist_line(&core->list, point[0], half + 1, 1.5f, color);
@@ -818,7 +822,7 @@ static void body_moves(void *room, struct core *core)
     struct stage *stage = room;
     if (stage->body_drag.begun) return;
     stage->body_drag.begun = true;
-    if (core->record_armed && tail_of(core->document, stage->body_drag.rig)) record_begin(stage, core);
+    if (core->step.record_armed && tail_of(core->document, stage->body_drag.rig)) record_begin(stage, core);
 }
 
 static enum drag_answer body_event(void *room, struct core *core, const struct event *event)
@@ -828,7 +832,7 @@ static enum drag_answer body_event(void *room, struct core *core, const struct e
     if (!key) return DRAG_PASSES;
     struct stage *stage = room;
     if (event->key != 'R')
-        return drag_lock_axis(&core->drag, &stage->body_drag.axis, event->key) ? DRAG_USED : DRAG_PASSES;
+        return drag_lock_axis(&core->input.drag, &stage->body_drag.axis, event->key) ? DRAG_USED : DRAG_PASSES;
     if (!tail_of(core->document, stage->body_drag.rig)) {
         core_message(core, false, "An imported character stays in one place for the whole shot. Its clip moves it.");
         return DRAG_USED;
@@ -845,7 +849,7 @@ static void end_body(void *room, struct core *core, bool keep)
     struct stage *stage = room;
     struct record *record = &stage->record;
     const int body = stage->body_drag.rig;
-    const bool moved = core->drag.moved;
+    const bool moved = core->input.drag.moved;
     const bool edits = moved && keep && body < core->document->rig_count; // an edit may have removed the body
     const bool records = edits && record_has_motion(stage) && tail_of(core->document, body);
     if (records) { // splines for coordinates that moved, and channels that follow them

@@ -29,13 +29,13 @@ static float pair_offset(const struct figure *figure) { return PAIR_GAP * (figur
 static void add_character(struct stage *stage, const struct core *core, int rig, int n, float aside)
 {
     struct stage_view *view = &stage->view;
-    const struct character_view *how = &core->characters;
+    const struct character_view *how = &core->focus.characters;
     const struct character_rig *character = &core->document->rigs[rig]->character;
     struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose posed;
     if (aside > 0) posing.look = LOOK_STIFF;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
-    if (!rig_pose(&posing, rig, core->playback.position, NULL, &posed)) return;
+    if (!rig_pose(&posing, rig, core->view.playback.position, NULL, &posed)) return;
     const struct figure *figure = posed.character.figure;
     struct stage_character *shown = &view->characters[view->character_count++];
     *shown =
@@ -48,7 +48,7 @@ static void add_character(struct stage *stage, const struct core *core, int rig,
                                  .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k] + (k == 0 ? aside : 0.0f);
     const int drive = how->drive < character->drive_count ? how->drive : 0;
-    const bool is_painted = core->brush.on && n == how->character;
+    const bool is_painted = core->focus.brush.on && n == how->character;
     if ((how->mapped || is_painted) && character->drive_count > 0)
         shown->map_coordinate = figure_find(figure, character->drives[drive].name);
 
@@ -67,7 +67,7 @@ static void pose_soft(struct stage *stage, const struct core *core, int rig, int
 {
     const struct figure *figure = models_figure(core->models, n);
     if (!figure) return;
-    if (!core->characters.compare) {
+    if (!core->focus.characters.compare) {
         add_character(stage, core, rig, n, 0.0f);
     } else {
         add_character(stage, core, rig, n, -pair_offset(figure));
@@ -77,7 +77,7 @@ static void pose_soft(struct stage *stage, const struct core *core, int rig, int
 
 static float character_aside(const struct core *core, int n)
 {
-    return core->characters.compare ? pair_offset(models_figure(core->models, n)) : 0.0f;
+    return core->focus.characters.compare ? pair_offset(models_figure(core->models, n)) : 0.0f;
 }
 
 static uint64_t hash_characters(uint64_t sum, const struct stage_view *view)
@@ -135,7 +135,7 @@ static void show_centred(struct drawlist *list, float x, float y, const char *te
 /// The legend's place.
 static struct rect characters_legend(const struct core *core)
 {
-    const struct rect stage = core->layout.stage;
+    const struct rect stage = core->view.layout.stage;
     return (struct rect){stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
 }
 
@@ -144,15 +144,15 @@ void characters_show(const struct stage *stage, struct core *core)
     static const char *const names[] = {"with phases", "without phases"}; // a line under the feet of each of a pair
     static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
     const struct coordinate *coordinate = characters_coordinate(core);
-    const struct rect r = core->layout.stage;
+    const struct rect r = core->view.layout.stage;
     struct drawlist *list = &core->list;
-    if ((core->characters.mapped || core->brush.on) && coordinate) {
+    if ((core->focus.characters.mapped || core->focus.brush.on) && coordinate) {
         // The legend. Angles as in the complex plane: in step to the right, a quarter ahead at the top.
         const struct rect box = characters_legend(core);
         const float x = box.x + box.w / 2, y = box.y + 80;
         char title[96];
         snprintf(title, sizeof title, "%.*s: %s", name_fit(coordinate->name, 40), coordinate->name,
-                 directions[core->characters.axis]);
+                 directions[core->focus.characters.axis]);
         stage_scrim(core, box);
         drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
 
@@ -185,7 +185,7 @@ void characters_show(const struct stage *stage, struct core *core)
         drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
                       theme()->text_dim, left);
     }
-    for (int i = 0; core->characters.compare && i < stage->view.character_count; i++) {
+    for (int i = 0; core->focus.characters.compare && i < stage->view.character_count; i++) {
         const struct stage_character *shown = &stage->view.characters[i];
         const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
         float xy[2];
@@ -221,7 +221,7 @@ static const struct character_rig *floors_find(const struct stage *stage, const 
             const float reach = AROUND * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
             at[k] = shown->position[k] + 0.5f * (lo[k] + hi[k]) + sides[i][k / 2] * reach;
         }
-        if (!stage_project_point(stage, core->layout.stage, at, floor->xy[i])) return NULL;
+        if (!stage_project_point(stage, core->view.layout.stage, at, floor->xy[i])) return NULL;
         const float depth = glms_vec3_distance(vec3_from(stage->view.eye), vec3_from(at));
         if (depth < nearest) nearest = depth, floor->first = i;
     }
@@ -232,7 +232,7 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
 {
     struct hover hover = {.thing = NULL};
     float best = EDGE_REACH;
-    if (core->brush.on || core->pick.use != BONE_SELECTED) return hover;
+    if (core->focus.brush.on || core->focus.pick.use != BONE_SELECTED) return hover;
     for (int c = 0; c < stage->view.character_count; c++) {
         const struct stage_character *shown = &stage->view.characters[c];
         struct shown_floor floor = {0};
@@ -257,10 +257,10 @@ static void move_floor(void *room, struct core *core)
     const struct document *document = core->document;
     if (drag->rig >= document->rig_count || !rig_has_floor(document->rigs[drag->rig])) return; // an edit removed it
     struct rig changed = *document->rigs[drag->rig];
-    const double height = drag->start - core->drag.moved_y / drag->pixels_per_metre;
+    const double height = drag->start - core->input.drag.moved_y / drag->pixels_per_metre;
     const double rounded = core_round(height, 0.5 / drag->pixels_per_metre);
     changed.character.floor = fmin(rounded, changed.character.position[1]);
-    edit_rig_set(core->document, drag->rig, &changed, &core->error);
+    edit_rig_set(core->document, drag->rig, &changed, &core->step.error);
 }
 
 static void press_floor(void *room, struct core *core, const struct hover *hover, const struct event *event)
@@ -270,7 +270,7 @@ static void press_floor(void *room, struct core *core, const struct hover *hover
     const struct character_rig *rig = &core->document->rigs[hover->rig]->character;
     const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
     const double rise = fmax(maths_cos((double)stage->camera.elevation), LEAST_RISE);
-    core->hover = *hover;
+    core->input.hover = *hover;
     drag_begin(core, &owner, stage, "Set floor", event);
     stage->floor_drag = (struct floor_drag){
         .rig = hover->rig, .start = rig->floor, .pixels_per_metre = rise * stage_pixels_per_metre(stage, core, at)};
@@ -310,7 +310,7 @@ void floors_show(const struct stage *stage, struct core *core)
         const struct character_rig *rig = floors_find(stage, core, shown, &floor);
         if (!rig) continue;
         const int index = document_find_rig(document, RIG_CHARACTER, shown->rig);
-        const bool is_hot = core->hover.thing == &thing_floor && core->hover.rig == index;
+        const bool is_hot = core->input.hover.thing == &thing_floor && core->input.hover.rig == index;
 
         float lowest = INFINITY, low[3];
         int found = 0;
@@ -342,7 +342,7 @@ void floors_show(const struct stage *stage, struct core *core)
 
         // The point on the floor at the lowest vertex, with a line if the vertex is below.
         const float on[3] = {low[0], (float)rig->floor, low[2]};
-        const struct rect r = core->layout.stage;
+        const struct rect r = core->view.layout.stage;
         float line[2][2];
         if (is_touched && stage_project_point(stage, r, on, line[0]) && stage_project_point(stage, r, low, line[1])) {
             if (low[1] < (float)rig->floor) drawlist_line(&core->list, line[0], 2, 1.25f, color);
@@ -406,7 +406,7 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
         }
         work->capacity = vertices;
     }
-    return skin_pose(stage, core->characters.character) ? figure : NULL;
+    return skin_pose(stage, core->focus.characters.character) ? figure : NULL;
 }
 
 /// Names of strokes, and the modes with Shift and Ctrl.
@@ -512,17 +512,17 @@ static void paint_stroke(void *room, struct core *core)
     if (!paint || !models_paint_fits(paint, figure)) return;
 
     // The surface points under the pointer's path since the last frame.
-    const float radius = radius_of(&core->brush, figure);
-    const float dx = core->pointer_x - painting->x, dy = core->pointer_y - painting->y;
-    const float metres = 2 * stage->camera.distance / stage->view.projection[5] / core->layout.stage.h;
+    const float radius = radius_of(&core->focus.brush, figure);
+    const float dx = core->input.pointer_x - painting->x, dy = core->input.pointer_y - painting->y;
+    const float metres = 2 * stage->camera.distance / stage->view.projection[5] / core->view.layout.stage.h;
     const float stride = fmaxf(1, STRIDE * radius / metres);
     const int steps = (int)fminf(REACH_MAX_SPOTS, fmaxf(1, ceilf(maths_hypotf(dx, dy) / stride)));
     for (int i = 1; i <= steps; i++) {
         const float share = (float)i / (float)steps;
         count += skin_spot(stage, figure, painting->x + share * dx, painting->y + share * dy, &spots[count]);
     }
-    painting->x = core->pointer_x;
-    painting->y = core->pointer_y;
+    painting->x = core->input.pointer_x;
+    painting->y = core->input.pointer_y;
     painting->has_dabbed = true;
     if (count == 0) return;
     reach_find(&work->reach, figure, spots, count, radius);
@@ -531,7 +531,7 @@ static void paint_stroke(void *room, struct core *core)
     const enum brush_mode mode = painting->stroke;
     const bool turns = mode == BRUSH_ADVANCE || mode == BRUSH_DELAY,
                swells = mode == BRUSH_MORE || mode == BRUSH_LESS;
-    const double flow = core->brush.strength * core->drag.dt;
+    const double flow = core->focus.brush.strength * core->input.drag.dt;
     struct dab dab = {coordinate, 0, work->vertices, (const float(*)[2])work->values};
     for (int i = 0; i < work->reach.count; i++) {
         const int vertex = work->reach.vertices[i];
@@ -578,14 +578,14 @@ static void paint_stroke(void *room, struct core *core)
         work->turned[work->vertices[i]][0] = 1;
         work->turned[work->vertices[i]][1] = 0;
     }
-    edit_paint(core->document, characters_rig(core), &dab, &core->error);
+    edit_paint(core->document, characters_rig(core), &dab, &core->step.error);
 }
 
 static void end_stroke(void *room, struct core *core, bool keep)
 {
     const struct stage *stage = room;
     if (!keep || stage->painting.has_dabbed) return;
-    core->drag.dt = SHORTEST;
+    core->input.drag.dt = SHORTEST;
     paint_stroke(room, core);
 }
 
@@ -593,11 +593,11 @@ static const struct drag_owner brush_owner = {
     .cursor = CURSOR_ARROW, .goes_on = true, .apply = paint_stroke, .end = end_stroke};
 
 /// Whether a stroke is running.
-static bool brush_paints(const struct core *core) { return core->drag.owner == &brush_owner; }
+static bool brush_paints(const struct core *core) { return core->input.drag.owner == &brush_owner; }
 
 bool brush_press(struct stage *stage, struct core *core, const struct event *event)
 {
-    const struct brush *brush = &core->brush;
+    const struct brush *brush = &core->focus.brush;
     struct painting *painting = &stage->painting;
     int coordinate;
     if (!brush->on || event->button != BUTTON_LEFT || history_is_open(core->history)) return false;
@@ -622,7 +622,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct event *eve
 
 bool brush_wheel(struct core *core, const struct event *event)
 {
-    struct brush *brush = &core->brush;
+    struct brush *brush = &core->focus.brush;
     const double factor = maths_exp(WHEEL_STEP * fmin(fmax(event->dy, -20), 20));
     if (!brush->on || !(event->mods & (MOD_CTRL | MOD_SHIFT))) return false;
     if (event->mods & MOD_CTRL) {
@@ -637,15 +637,15 @@ bool brush_wheel(struct core *core, const struct event *event)
 
 void brush_pose(struct stage *stage, struct core *core, bool covered)
 {
-    const struct brush *brush = &core->brush;
+    const struct brush *brush = &core->focus.brush;
     struct painting *painting = &stage->painting;
-    const bool pointed = rect_contains(core->layout.stage, core->pointer_x, core->pointer_y);
-    const bool free_hand = !core->drag.owner || brush_paints(core);
+    const bool pointed = rect_contains(core->view.layout.stage, core->input.pointer_x, core->input.pointer_y);
+    const bool free_hand = !core->input.drag.owner || brush_paints(core);
     int coordinate;
     painting->covers = false;
     if (!brush->on || !pointed || !free_hand || covered) return;
     const struct figure *figure = pose_figure(stage, core, &coordinate);
-    if (!figure || !skin_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;
+    if (!figure || !skin_spot(stage, figure, core->input.pointer_x, core->input.pointer_y, &painting->spot)) return;
     painting->covers = true;
     reach_find(&painting->work.reach, figure, &painting->spot, 1, (1 + RIM) * radius_of(brush, figure));
 }
@@ -662,14 +662,14 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
 {
     struct silhouette *silhouette = &stage->silhouette;
     const struct reach *reach = &stage->painting.work.reach;
-    const float radius = radius_of(&core->brush, figure);
+    const float radius = radius_of(&core->focus.brush, figure);
     silhouette_clear(silhouette);
     for (int i = 0; i < reach->count; i++) {
         float xy[2];
         if (!stage_project_point(stage, stage->view.viewport, stage->skin.posed[reach->vertices[i]], xy)) return;
         silhouette_widen(silhouette, xy, 0);
     }
-    if (!silhouette_open(silhouette, core->layout.stage)) return;
+    if (!silhouette_open(silhouette, core->view.layout.stage)) return;
 
     // Triangles that face the eye. A corner is inside by the rest of the radius, in pixels.
     const float scale = 0.5f * fmaxf(silhouette->area.w, silhouette->area.h) / radius;
@@ -694,7 +694,7 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
 
 void brush_show(struct stage *stage, struct core *core)
 {
-    const struct brush *brush = &core->brush;
+    const struct brush *brush = &core->focus.brush;
     const struct painting *painting = &stage->painting;
     int coordinate;
     const struct figure *figure = brush->on ? characters_figure(core, &coordinate) : NULL;
@@ -705,7 +705,7 @@ void brush_show(struct stage *stage, struct core *core)
 
     const struct rect legend = characters_legend(core);
     const struct rect box = {legend.x, legend.y - STATE_HEIGHT - 8, legend.w, STATE_HEIGHT};
-    const char *label = strokes[brush_paints(core) ? painting->stroke : brush_stroke(brush, core->mods)].label;
+    const char *label = strokes[brush_paints(core) ? painting->stroke : brush_stroke(brush, core->input.mods)].label;
     char text[64] = "nothing painted here";
     if (!painting->covers) {
         snprintf(text, sizeof text, "radius %.0f %%, strength %.0f %%", 100 * brush->radius, 100 * brush->strength);

@@ -56,7 +56,7 @@ static float model_aside(const struct core *core, int n)
 {
     const int rig = document_find_rig(core->document, RIG_MODEL, n);
     const struct imported *imported = models_imported(core->models, core->document, rig);
-    if (!core->overlays.original || !imported) return 0.0f;
+    if (!core->view.overlays.original || !imported) return 0.0f;
     const float *lo = imported->gltf.lo, *hi = imported->gltf.hi;
     return ASIDE * (float)core->document->rigs[rig]->model.scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
 }
@@ -67,7 +67,7 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose posed;
     posing.memory = POSE_SHOWN;
-    if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
+    if (!rig_pose_body(&posing, rig, core->view.playback.position, NULL, &posed)) return;
     struct stage_model *shown = models_show(view, &posed);
     if (!shown) return;
     const struct skeleton *skeleton = &posed.model.imported->skeleton;
@@ -89,8 +89,8 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
 
     // The clip without its chains, beside it.
     posing = (struct posing){.document = core->document, .models = core->models, .memory = POSE_BESIDE};
-    if (!core->overlays.original || view->model_count == STAGE_MAX_MODELS) return;
-    if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
+    if (!core->view.overlays.original || view->model_count == STAGE_MAX_MODELS) return;
+    if (!rig_pose_body(&posing, rig, core->view.playback.position, NULL, &posed)) return;
     const float by = model_aside(core, n);
     shown = &view->models[view->model_count++];
     *shown = shown[-1];
@@ -176,11 +176,11 @@ void bones_mark(struct stage *stage, const struct core *core, int rig, int model
     const struct chain *chain = &core->document->rigs[rig]->chain;
     int spline = chain->channel_count > 0 ? chain->channels[0].spline : -1;
     for (int c = 0; c < chain->channel_count; c++) {
-        if (chain->channels[c].spline == core->active) spline = core->active;
+        if (chain->channels[c].spline == core->focus.active) spline = core->focus.active;
     }
     for (int b = 0; b < stage->bone_count; b++) {
         struct shown_bone *bone = &stage->bones[b];
-        if (bone->model != model || (bone->chain >= 0 && spline != core->active)) continue;
+        if (bone->model != model || (bone->chain >= 0 && spline != core->focus.active)) continue;
         for (int n = 0; n < bones->count; n++) {
             const struct bone *part = &bone->part;
             const bool is_last = n + 1 == bones->count;
@@ -203,14 +203,14 @@ struct candidate {
 /// Control, pole and leaf bones show while Alt is held.
 static bool is_hidden(const struct core *core, const struct shown_bone *bone)
 {
-    return bone->part.hidden && !(core->mods & MOD_ALT);
+    return bone->part.hidden && !(core->input.mods & MOD_ALT);
 }
 
 static bool project_bone(const struct stage *stage, const struct core *core, const struct shown_bone *bone,
                          float ends[2][2])
 {
-    return stage_project_point(stage, core->layout.stage, bone->ends[0], ends[0]) &&
-           stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]);
+    return stage_project_point(stage, core->view.layout.stage, bone->ends[0], ends[0]) &&
+           stage_project_point(stage, core->view.layout.stage, bone->ends[1], ends[1]);
 }
 
 /// False if the bone is gone, hidden or out of reach. A bone without vertices counts as farther.
@@ -250,7 +250,7 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
     for (int b = 0; b < stage->bone_count; b++) {
         if (measure_bone(stage, core, b, p, &candidate)) nearest = fminf(nearest, candidate.distance);
     }
-    for (int b = 0; b < stage->bone_count && !core->brush.on; b++) {
+    for (int b = 0; b < stage->bone_count && !core->focus.brush.on; b++) {
         if (measure_bone(stage, core, b, p, &candidate) && candidate.distance < nearest + OVERLAP &&
             is_better(&candidate, &best))
             best = candidate;
@@ -274,7 +274,7 @@ void bone_click(const struct stage *stage, struct core *core)
     const bool is_there = pressed->model < document->rig_count && document->rigs[pressed->model]->kind == RIG_MODEL;
     if ((pressed->thing == &thing_bone || pressed->thing == &thing_chain) && is_there) {
         bones_clicked(core, pressed->model, pressed->node);
-    } else if (core->pick.use == BONE_SELECTED) {
+    } else if (core->focus.pick.use == BONE_SELECTED) {
         bones_clear(core);
     }
 }
@@ -294,7 +294,7 @@ static bool find_bone(void *room, const struct core *core, const struct target *
             const struct shown_bone *bone = &stage->bones[b];
             const vec3s middle = glms_vec3_lerp(vec3_from(bone->ends[0]), vec3_from(bone->ends[1]), 0.5f);
             if (bone->model != r || bone->part.node != node || is_hidden(core, bone)) continue;
-            if (stage_project_point(stage, core->layout.stage, middle.raw, xy)) return true;
+            if (stage_project_point(stage, core->view.layout.stage, middle.raw, xy)) return true;
             break;
         }
     }
@@ -351,34 +351,35 @@ static int way_count(const struct core *core, const struct way *way, int model, 
 void bones_show(const struct stage *stage, struct core *core)
 {
     const struct stage_view *view = &stage->view;
-    const struct hover *hover = &core->hover;
-    const struct rect place = core->layout.stage;
+    const struct hover *hover = &core->input.hover;
+    const struct rect place = core->view.layout.stage;
 
     // The rig whose bones show because the pointer is over its character's bounding box on the screen, or −1.
     int under = hover->thing == &thing_bone ? hover->model : -1;
-    const bool searches =
-        under < 0 && !core->brush.on && rect_contains(view->viewport, core->pointer_x, core->pointer_y);
+    const bool searches = under < 0 && !core->focus.brush.on &&
+                          rect_contains(view->viewport, core->input.pointer_x, core->input.pointer_y);
     for (int rig = -1; searches && under < 0 && (rig = document_next_rig(core->document, RIG_MODEL, rig)) >= 0;) {
         const struct gltf_pose *pose = models_pose(core->models, core->document, rig, POSE_SHOWN);
         for (int m = 0; pose && m < view->model_count; m++) {
             const struct stage_model *model = &view->models[m];
             struct rect box;
-            if (model->pose == pose && (!stage_project_box(stage, place, model->lo, model->hi, &box) ||
-                                        rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y)))
+            if (model->pose == pose &&
+                (!stage_project_box(stage, place, model->lo, model->hi, &box) ||
+                 rect_contains(rect_inset(box, -NEAR_BOX), core->input.pointer_x, core->input.pointer_y)))
                 under = rig;
         }
     }
     const struct way chosen = way_chosen(core);
     struct way meant = {-1, -1, -1};
-    if (!core->drag.owner && hover->thing == &thing_bone)
+    if (!core->input.drag.owner && hover->thing == &thing_bone)
         meant = way_from(core, hover->model, hover->node);
-    else if (!core->drag.owner && hover->thing == &thing_chain)
+    else if (!core->input.drag.owner && hover->thing == &thing_chain)
         meant = (struct way){hover->model, hover->node, -1};
     for (int b = 0; b < stage->bone_count; b++) {
         const struct shown_bone *bone = &stage->bones[b];
         const int model = bone->model, node = bone->part.node;
         float ends[2][2];
-        if (model != under && model != chosen.model && core->pick.use == BONE_SELECTED) continue;
+        if (model != under && model != chosen.model && core->focus.pick.use == BONE_SELECTED) continue;
         const bool is_chosen = model == chosen.model && node == chosen.node;
         const bool is_meant = (model == meant.model && node == meant.node) ||
                               way_count(core, &chosen, model, node) > 0 || way_count(core, &meant, model, node) > 0;
@@ -418,9 +419,10 @@ void bones_show(const struct stage *stage, struct core *core)
         snprintf(text + length, sizeof text - (size_t)length, " to %.*s, %d bones",
                  name_fit(nodes[meant.tip].name, 200), nodes[meant.tip].name, count);
     const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, text), place.w / 2) + 2 * LABEL_PAD + 2;
-    struct rect r = {core->pointer_x + LABEL_AWAY, core->pointer_y - LABEL_AWAY - LABEL_HEIGHT, width, LABEL_HEIGHT};
-    if (r.x + r.w > place.x + place.w) r.x = core->pointer_x - LABEL_AWAY - r.w;
-    if (r.y < place.y) r.y = core->pointer_y + LABEL_AWAY;
+    struct rect r = {core->input.pointer_x + LABEL_AWAY, core->input.pointer_y - LABEL_AWAY - LABEL_HEIGHT, width,
+                     LABEL_HEIGHT};
+    if (r.x + r.w > place.x + place.w) r.x = core->input.pointer_x - LABEL_AWAY - r.w;
+    if (r.y < place.y) r.y = core->input.pointer_y + LABEL_AWAY;
     drawlist_rounded(&core->list, r, 4, theme_fade(theme()->raised, 0.92f));
     drawlist_rounded_line(&core->list, r, 4, 1, theme()->border);
     drawlist_text_fit(&core->list, r.x + LABEL_PAD, r.y + 14, r.w - LABEL_PAD, FONT_LABEL, THEME_TEXT_NORMAL,

@@ -228,7 +228,7 @@ static int overlay_pose_rig(const struct stage *stage, const struct core *core)
     for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r)) {
         const struct rig *rig = document->rigs[r];
         for (int i = 0; i < rig_input_count(rig); i++) {
-            if (rig_input(rig, i) == core->active) return r;
+            if (rig_input(rig, i) == core->focus.active) return r;
         }
     }
     const int strand = overlay_rig(stage, core);
@@ -259,13 +259,13 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
         const int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
         const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
         const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
-        if (!stage_project_point(stage, core->layout.stage, point.raw, discs[i].middle)) return false;
+        if (!stage_project_point(stage, core->view.layout.stage, point.raw, discs[i].middle)) return false;
         const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
         const float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose->scale;
         discs[i].radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
         silhouette_widen(silhouette, discs[i].middle, discs[i].radius);
     }
-    if (!silhouette_open(silhouette, core->layout.stage)) return false;
+    if (!silhouette_open(silhouette, core->view.layout.stage)) return false;
     for (int i = 1; i < STATIONS; i++)
         silhouette_add_link(silhouette, discs[i - 1].middle, discs[i - 1].radius, discs[i].middle, discs[i].radius);
     const int count = silhouette_follow(silhouette), whole = count - 1; // the last point repeats the first
@@ -302,11 +302,11 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
     morph_places(figure, &pose->character.morph, shown->position, posed);
     for (int i = 0; i < figure->character.vertex_count; i++) {
         float xy[2];
-        if (!stage_project_point(stage, core->layout.stage, posed[i], xy)) return false;
+        if (!stage_project_point(stage, core->view.layout.stage, posed[i], xy)) return false;
         memcpy(posed[i], xy, sizeof xy);
         silhouette_widen(silhouette, xy, 0);
     }
-    if (!silhouette_open(silhouette, core->layout.stage)) return false;
+    if (!silhouette_open(silhouette, core->view.layout.stage)) return false;
     const float all[3] = {1e6f, 1e6f, 1e6f};
     for (int t = 0; t < figure->character.index_count; t += 3) {
         float corner[3][2];
@@ -317,8 +317,8 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
     for (int count; (count = silhouette_follow(silhouette)) > 0;)
         drawlist_line(&core->list, silhouette->points[0], count, width, color);
     const float *low = silhouette->low, *high = silhouette->high;
-    tip[0] = fminf(high[0], core->layout.stage.x + 0.9f * core->layout.stage.w);
-    tip[1] = fmaxf(0.7f * low[1] + 0.3f * high[1], core->layout.stage.y + 20);
+    tip[0] = fminf(high[0], core->view.layout.stage.x + 0.9f * core->view.layout.stage.w);
+    tip[1] = fmaxf(0.7f * low[1] + 0.3f * high[1], core->view.layout.stage.y + 20);
     return true;
 }
 
@@ -334,7 +334,7 @@ static bool proxy_show(struct stage *stage, struct core *core, const struct posi
         return show_character(stage, core, &pose, document_rig_number(posing->document, rig), width, color, tip);
     if (pose.kind != RIG_CHAIN || pose.strand.count == 0) return false;
     for (int n = 0; n < pose.strand.count; n++) {
-        if (!stage_project_point(stage, core->layout.stage, pose.strand.matrix[n] + 12, points[n])) return false;
+        if (!stage_project_point(stage, core->view.layout.stage, pose.strand.matrix[n] + 12, points[n])) return false;
     }
     drawlist_line(&core->list, points[0], pose.strand.count, width, color);
     memcpy(tip, points[pose.strand.count - 1], 2 * sizeof *tip);
@@ -346,13 +346,13 @@ void onion_show(struct stage *stage, struct core *core)
     const struct document *document = core->document;
     const struct spline *spline = core_active_spline(core);
     const int rig = overlay_pose_rig(stage, core);
-    if (!core->overlays.onion || !spline || rig < 0) return;
+    if (!core->view.overlays.onion || !spline || rig < 0) return;
     const int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
     if (spline->knot_count == 0 && track >= 0) spline = document->splines[track]; // its equilibrium's knots
 
     // Samples of the knots nearest to the playhead, nearest first.
     const int most = document->rigs[rig]->kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
-    const double position = core->playback.position;
+    const double position = core->view.playback.position;
     int samples[MAX_SKINS], count = 0;
     int after = spline_lower_bound(document, spline, (int)ceil(position)), before = after - 1;
     while (count < most && (before >= 0 || after < spline->knot_count)) {
@@ -366,7 +366,7 @@ void onion_show(struct stage *stage, struct core *core)
             after++;
         }
     }
-    uint32_t color = spline_list_color(document, core->active);
+    uint32_t color = spline_list_color(document, core->focus.active);
     const struct posing posing = stage_posing(core);
     for (int i = count - 1; i >= 0; i--) {
         float share = count > 1 ? (float)i / (float)(count - 1) : 0, tip[2];
@@ -379,19 +379,20 @@ void ghost_show(struct stage *stage, struct core *core)
 {
     // The active spline's knot that is held by the pointer, or the only selected one after a nudge.
     const struct document *document = core->document;
-    const struct drag *drag = &core->drag;
-    const struct spline *spline = core->overlays.ghost ? core_active_spline(core) : NULL;
+    const struct drag *drag = &core->input.drag;
+    const struct spline *spline = core->view.overlays.ghost ? core_active_spline(core) : NULL;
     int at = -1;
     if (spline && drag->owner && drag->knot && drag->moved) at = spline_find_id(spline, drag->knot);
-    if (spline && !drag->owner && core->nudged_seconds > 0) at = selection_single(&core->selection, spline);
+    if (spline && !drag->owner && core->step.nudged_seconds > 0)
+        at = selection_single(&core->focus.selection, spline);
     const int rig = at >= 0 ? overlay_pose_rig(stage, core) : -1;
     if (rig < 0) return;
     const struct knot *knot = &spline->knots[at];
     const int sample = document_sample(document, knot->frame);
-    if (fabs(sample - core->playback.position) < 0.5) return;
+    if (fabs(sample - core->view.playback.position) < 0.5) return;
     const struct posing posing = stage_posing(core);
-    const double left = !drag->owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
-    const uint32_t color = theme_fade(spline_list_color(document, core->active), GHOST * (float)left);
+    const double left = !drag->owner ? fmin(core->step.nudged_seconds / FADE, 1) : 1;
+    const uint32_t color = theme_fade(spline_list_color(document, core->focus.active), GHOST * (float)left);
     float tip[2];
     if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
     char text[32];
@@ -414,7 +415,7 @@ struct rig_point overlay_point(struct stage *stage, const struct core *core)
 {
     const int rig = overlay_rig(stage, core);
     if (rig >= 0) return (struct rig_point){rig, bones_joints(core, rig) - 1};
-    const int n = core->characters.character;
+    const int n = core->focus.characters.character;
     const struct figure *figure = models_figure(core->models, n);
     if (!figure) return (struct rig_point){-1, -1};
     struct liveliest *kept = &stage->liveliest;
@@ -473,7 +474,7 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
 {
     const struct document *document = core->document;
     const struct rig *rig = document->rigs[point.rig];
-    const double now = core->playback.position / document->substeps;
+    const double now = core->view.playback.position / document->substeps;
     const double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach), count = 0;
 
@@ -488,7 +489,7 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
     // The point's world place at each frame, kept until an edit.
     const uint64_t solved = core->evaluation ? core->evaluation->revision : 0;
     uint64_t key = hash_word(hash_word(HASH_START, history_revision(core->history)), solved);
-    key = hash_word(hash_word(key, (uint64_t)point.rig << 8 | (uint64_t)core->look), (uint64_t)point.at);
+    key = hash_word(hash_word(key, (uint64_t)point.rig << 8 | (uint64_t)core->view.look), (uint64_t)point.at);
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     for (int frame = first; frame <= last; frame++) {
         struct trail_point *kept = &stage->trail[which][(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
@@ -496,7 +497,7 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
             *kept = (struct trail_point){.is_set = true, .key = key, .frame = frame};
             point_place(core, point, (double)frame * document->substeps, kept->place);
         }
-        if (!stage_project_point(stage, core->layout.stage, kept->place, screen[count++])) return;
+        if (!stage_project_point(stage, core->view.layout.stage, kept->place, screen[count++])) return;
     }
     if (count == 0) return;
 
@@ -531,15 +532,16 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
 void trail_show(struct stage *stage, struct core *core)
 {
     float place[3], xy[2];
-    if (!core->overlays.trail) return;
+    if (!core->view.overlays.trail) return;
     const struct rig_point point = overlay_point(stage, core);
     if (!point_exists(core, point)) return;
     path_show(stage, core, TRAIL_OF_TIP, point);
 
     // A ring where the point is now: a tip follows a dragged body.
-    const bool seen = strand_of(stage, point.rig) ? stage_project(stage, core, point.rig, point.at + 1, 0, xy)
-                                                  : point_place(core, point, core->playback.position, place) &&
-                                                        stage_project_point(stage, core->layout.stage, place, xy);
+    const bool seen = strand_of(stage, point.rig)
+                          ? stage_project(stage, core, point.rig, point.at + 1, 0, xy)
+                          : point_place(core, point, core->view.playback.position, place) &&
+                                stage_project_point(stage, core->view.layout.stage, place, xy);
     if (seen) drawlist_circle(&core->list, xy, NOW, 1.5f, theme()->playhead);
 }
 
@@ -594,14 +596,14 @@ static const struct pin *next_marker(const struct core *core, struct pin_place *
     const struct pin *pin;
     do {
         pin = pins_next(core->document, place);
-    } while (pin && core->characters.compare && core->document->rigs[place->rig]->kind == RIG_CHARACTER);
+    } while (pin && core->focus.characters.compare && core->document->rigs[place->rig]->kind == RIG_CHARACTER);
     return pin;
 }
 
 static bool project_place(const struct stage *stage, const struct core *core, const double place[3], float xy[2])
 {
     const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
-    return stage_project_point(stage, core->layout.stage, at, xy);
+    return stage_project_point(stage, core->view.layout.stage, at, xy);
 }
 
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y)
@@ -609,7 +611,7 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
     struct hover hover = {.thing = NULL};
     const float reach = core_reach(core, MARKER_REACH);
     float best = reach;
-    if (core->brush.on || core->pick.use != BONE_SELECTED) return hover;
+    if (core->focus.brush.on || core->focus.pick.use != BONE_SELECTED) return hover;
 
     // The marker under the point: the selected one, else the nearest.
     struct pin_place place = PINS_START;
@@ -617,18 +619,18 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
         float xy[2];
         if (!project_place(stage, core, pin->to, xy)) continue;
         float distance = maths_hypotf(xy[0] - x, xy[1] - y);
-        if (distance < reach && core->pin.any && core->pin.id == pin->id) distance = 0;
+        if (distance < reach && core->focus.pin.any && core->focus.pin.id == pin->id) distance = 0;
         if (distance >= best) continue;
         best = distance;
         hover = (struct hover){
             .thing = &thing_pin, .rig = place.rig, .joint = pin->point, .pin = pin->id, .x = xy[0], .y = xy[1]};
     }
-    if (hover.thing || found->thing || core->characters.compare) return hover;
+    if (hover.thing || found->thing || core->focus.characters.compare) return hover;
 
     // A vertex, cached while pointer and picture stay. Playback under a still pointer highlights nothing.
     struct pointed *pointed = &stage->pointed;
     const bool still = pointed->x == x && pointed->y == y, same = still && pointed->hash == stage->view.hash;
-    if (still && !same && core->playback.playing) return hover;
+    if (still && !same && core->view.playback.playing) return hover;
     if (!same) *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core, x, y)};
     return pointed->hover;
 }
@@ -650,7 +652,7 @@ static void pins_take_plane(const struct stage *stage, const struct core *core, 
 static void move_pin(void *room, struct core *core)
 {
     const struct pin_drag *drag = &((const struct stage *)room)->pin_drag;
-    const double dx = core->drag.moved_x, dy = core->drag.moved_y;
+    const double dx = core->input.drag.moved_x, dy = core->input.drag.moved_y;
     const int axis = drag->axis;
     double to[3];
     for (int k = 0; k < 3; k++) {
@@ -665,8 +667,8 @@ static enum drag_answer pin_event(void *room, struct core *core, const struct ev
 {
     // Ctrl may still be held from grabbing a joint.
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
-    return key && drag_lock_axis(&core->drag, &((struct stage *)room)->pin_drag.axis, event->key) ? DRAG_USED
-                                                                                                  : DRAG_PASSES;
+    return key && drag_lock_axis(&core->input.drag, &((struct stage *)room)->pin_drag.axis, event->key) ? DRAG_USED
+                                                                                                        : DRAG_PASSES;
 }
 
 static const float HERE = 5, ELSEWHERE = 3.5f, RING = 8, LIT = 6.5f, END = 2; ///< radii, pixels
@@ -684,7 +686,7 @@ static void pins_show_axis(void *room, struct core *core)
     for (int e = 0; e < 2; e++) {
         for (int k = 0; k < 3; k++) ends[e][k] = (float)drag->start[k];
         ends[e][drag->axis] += e ? AXIS : -AXIS;
-        if (!stage_project_point(stage, core->layout.stage, ends[e], line[e])) return;
+        if (!stage_project_point(stage, core->view.layout.stage, ends[e], line[e])) return;
     }
     drawlist_dashed(&core->list, line[0], 2, 1, 6, 4, theme_fade(theme()->playhead, 0.7f));
 }
@@ -708,7 +710,7 @@ static void press_pin(void *room, struct core *core, const struct hover *hover, 
         float place[3] = {0};
         drag->frame = pins_frame_here(core, hover->rig);
         playback_seek(core, drag->frame);
-        point_place(core, drag->point, core->playback.position, place);
+        point_place(core, drag->point, core->view.playback.position, place);
         for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
     }
     pins_take_plane(stage, core, drag->start, drag);
@@ -752,7 +754,7 @@ void stage_nudge_pin(struct stage *stage, struct core *core, double right, doubl
     const struct pin *pin = pins_selected(core, &rig);
     if (!pin) return;
     pins_take_plane(stage, core, pin->to, &plane);
-    const double step = core_round(NUDGE * (double)core->layout.stage.h / plane.pixels_per_metre, 0.01);
+    const double step = core_round(NUDGE * (double)core->view.layout.stage.h / plane.pixels_per_metre, 0.01);
     double by[3];
     for (int k = 0; k < 3; k++) by[k] = step * (right * plane.right[k] + up * plane.up[k]);
     pins_nudge(core, by);
@@ -774,7 +776,7 @@ static void pin_here(struct core *core, struct rig_point point)
 void stage_hold_point(struct stage *stage, struct core *core)
 {
     int rig;
-    struct hover hover = core->hover;
+    struct hover hover = core->input.hover;
     if (is_strand(&hover)) hover = strand_end(stage, core, &hover);
     const struct pin *selected = pins_selected(core, &rig);
     if (hover.thing == &thing_point) {
@@ -800,8 +802,8 @@ void pins_show(struct stage *stage, struct core *core)
         // The target, and a line to the point at the pin's frame if known.
         const struct pin_left *left = evaluation_pin(core->evaluation, document, place.rig, place.at);
         const bool here = document_sample(document, pin->frame) == document_sample(document, core_frame(core));
-        const bool selected = core->pin.any && core->pin.id == pin->id;
-        const bool hot = core->hover.thing == &thing_pin && core->hover.pin == pin->id;
+        const bool selected = core->focus.pin.any && core->focus.pin.id == pin->id;
+        const bool hot = core->input.hover.thing == &thing_pin && core->input.hover.pin == pin->id;
         const float radius = here || selected || hot ? HERE : ELSEWHERE;
         const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
         float line[2][2];
@@ -819,8 +821,8 @@ void pins_show(struct stage *stage, struct core *core)
         drawlist_circle(list, line[0], RING, 1.5f, theme()->playhead);
         stage_note(core, line[0][0] + RING + 8, line[0][1] + 4, FONT_NUMBER, theme()->text, text);
     }
-    if (core->hover.thing != &thing_point || core->drag.owner) return;
-    const float xy[2] = {core->hover.x, core->hover.y}; // the target of a press
+    if (core->input.hover.thing != &thing_point || core->input.drag.owner) return;
+    const float xy[2] = {core->input.hover.x, core->input.hover.y}; // the target of a press
     drawlist_circle(list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
     drawlist_circle(list, xy, LIT, 1.5f, theme()->playhead);
     drawlist_disc(list, xy, END, theme()->playhead);

@@ -64,7 +64,7 @@ float caption_height(struct rect place, const struct document *document)
 
 void stage_show_caption(struct core *core, float bottom)
 {
-    const struct rect place = core->layout.stage;
+    const struct rect place = core->view.layout.stage;
     const float x = place.x + MARGIN, y = place.y + MARGIN + TOP;
     if (!core->document->about || y >= bottom) return;
     const struct caption caption = caption_of(place, core->document);
@@ -113,10 +113,10 @@ struct hover stage_hover(struct stage *stage, const struct core *core, float x, 
     struct hover found = strand_hover(stage, core, x, y);
     if (bone.thing && (!found.thing || maths_hypotf(bone.x - x, bone.y - y) < maths_hypotf(found.x - x, found.y - y)))
         found = bone;
-    const bool pins = core->mods & MOD_CTRL && !core->brush.on && core->pick.use == BONE_SELECTED;
+    const bool pins = core->input.mods & MOD_CTRL && !core->focus.brush.on && core->focus.pick.use == BONE_SELECTED;
     if (pins && is_strand(&found)) found = strand_end(stage, core, &found);
     if (!found.thing) found = floors_hover(stage, core, x, y);
-    if (!found.thing) found = body_hover(stage, core, core->playback.position, x, y);
+    if (!found.thing) found = body_hover(stage, core, core->view.playback.position, x, y);
     const struct hover pin = pins_hover(stage, core, &found, x, y);
     return !pin.thing ? found : pin;
 }
@@ -129,8 +129,8 @@ static bool is_on_rig(const struct hover *hover)
 void stage_click(void *room, struct core *core, bool keep)
 {
     const struct stage *stage = room;
-    if (core->drag.moved || core->drag.button != BUTTON_LEFT || !keep) return;
-    if (is_on_rig(&stage->pressed) && core->pick.use == BONE_SELECTED) core->clicked = stage->pressed.rig + 1;
+    if (core->input.drag.moved || core->input.drag.button != BUTTON_LEFT || !keep) return;
+    if (is_on_rig(&stage->pressed) && core->focus.pick.use == BONE_SELECTED) core->clicked = stage->pressed.rig + 1;
     bone_click(stage, core);
 }
 
@@ -139,13 +139,15 @@ static const float ORBIT_SPEED = 0.008f; ///< radians per pixel
 static void orbit_stage(void *room, struct core *core)
 {
     struct stage *stage = room;
-    camera_orbit(&stage->camera, -(float)core->drag.moved_x * ORBIT_SPEED, (float)core->drag.moved_y * ORBIT_SPEED);
+    camera_orbit(&stage->camera, -(float)core->input.drag.moved_x * ORBIT_SPEED,
+                 (float)core->input.drag.moved_y * ORBIT_SPEED);
 }
 
 static void pan_stage(void *room, struct core *core)
 {
     struct stage *stage = room;
-    camera_pan(&stage->camera, (float)core->drag.moved_x, (float)core->drag.moved_y, core->layout.stage.h);
+    camera_pan(&stage->camera, (float)core->input.drag.moved_x, (float)core->input.drag.moved_y,
+               core->view.layout.stage.h);
 }
 
 static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan_stage, .end = stage_click};
@@ -155,27 +157,27 @@ static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; per STEP a tai
 
 void stage_press(struct stage *stage, struct core *core, const struct event *event)
 {
-    const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
+    const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->input.space_down);
     if (pans) {
-        core->space_used = core->space_down;
+        core->input.space_used = core->input.space_down;
         drag_begin(core, &panning, stage, NULL, event);
         return;
     }
     if (brush_press(stage, core, event)) return;
     stage->pointed.hash = 0; // forces a new search, because everything may have moved
     struct hover hover = stage_hover(stage, core, event->x, event->y);
-    const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
+    const bool holds = event->button == BUTTON_LEFT && core->focus.pick.use == BONE_SELECTED;
 
     // While it plays, a press aims at what was just visible: the tail, chain or body there within the last MOMENT.
     const struct document *document = core->document;
     double range[2];
     playback_range(core, range);
     const double first = core_position(document, range[0]), last = core_position(document, range[1]);
-    for (double ago = STEP; holds && core->playback.playing && ago <= MOMENT && !hover.thing; ago += STEP) {
+    for (double ago = STEP; holds && core->view.playback.playing && ago <= MOMENT && !hover.thing; ago += STEP) {
         float nearest = STRAND_REACH;
-        const double back = ago * document->fps * document->substeps * core->playback.speed;
-        double position = core->playback.position - back;
-        if (position < first && core->playback.looping) position = last - (first - position);
+        const double back = ago * document->fps * document->substeps * core->view.playback.speed;
+        double position = core->view.playback.position - back;
+        if (position < first && core->view.playback.looping) position = last - (first - position);
         position = fmax(position, first);
         for (int s = 0; s < stage->strand_count; s++) {
             const int rig = stage->strands[s].rig;
@@ -187,7 +189,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
         if (!hover.thing) hover = body_hover(stage, core, position, event->x, event->y);
     }
     stage->pressed = hover;
-    if (holds && is_on_rig(&hover)) core->limb = core->document->rigs[hover.rig]->id;
+    if (holds && is_on_rig(&hover)) core->focus.limb = core->document->rigs[hover.rig]->id;
     if (event->button == BUTTON_LEFT && hover.thing != &thing_pin) pins_clear(core);
     if (holds && hover.thing) {
         hover.thing->press(stage, core, &hover, event);
@@ -198,7 +200,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
 
 static bool find_stage(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const struct rect *stage = &core->layout.stage;
+    const struct rect *stage = &core->view.layout.stage;
     (void)room;
     xy[0] = stage->x + stage->w * (float)target->number[0];
     xy[1] = stage->y + stage->h * (float)target->number[1];
@@ -208,8 +210,8 @@ static bool find_stage(void *room, const struct core *core, const struct target 
 static bool find_pointer(void *room, const struct core *core, const struct target *target, float xy[2])
 {
     (void)room;
-    xy[0] = core->pointer_x + core->layout.stage.h * (float)target->number[0];
-    xy[1] = core->pointer_y + core->layout.stage.h * (float)target->number[1];
+    xy[0] = core->input.pointer_x + core->view.layout.stage.h * (float)target->number[0];
+    xy[1] = core->input.pointer_y + core->view.layout.stage.h * (float)target->number[1];
     return true;
 }
 
@@ -223,7 +225,7 @@ const struct thing *const stage_things[] = {&thing_tail, &thing_chain, &thing_bo
 void stage_wheel(struct stage *stage, struct core *core, const struct event *event)
 {
     if (brush_wheel(core, event)) return;
-    const struct rect *r = &core->layout.stage;
+    const struct rect *r = &core->view.layout.stage;
     const float before = stage->camera.distance;
     camera_zoom(&stage->camera, (float)maths_exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
     const float share = 1 - before / stage->camera.distance; // the place under the pointer stays there
@@ -241,7 +243,7 @@ void stage_advance(struct stage *stage, struct core *core, double dt)
 struct posing stage_posing(const struct core *core)
 {
     return (struct posing){
-        .document = core->document, .evaluation = core->evaluation, .models = core->models, .look = core->look};
+        .document = core->document, .evaluation = core->evaluation, .models = core->models, .look = core->view.look};
 }
 
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2])
@@ -271,7 +273,7 @@ bool stage_project_box(const struct stage *stage, struct rect r, const float lo[
 double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3])
 {
     const float depth = camera_depth(stage->view.view, stage->view.eye, place);
-    return 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
+    return 0.5 * (double)(core->view.layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
 }
 
 static const double LEAST_AXIS = 0.3; ///< pixels; axes that look shorter move as slowly as one of this length
@@ -308,7 +310,7 @@ static const struct stage_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(STAGE_RO
 
 struct rect stage_figure(const struct stage *stage, const struct core *core)
 {
-    const struct rect *place = &core->layout.stage, *figure = &stage->figure;
+    const struct rect *place = &core->view.layout.stage, *figure = &stage->figure;
     return (struct rect){place->x + place->w / 2 + figure->x * place->h, place->y + (figure->y + 0.5f) * place->h,
                          figure->w * place->h, figure->h * place->h};
 }
@@ -337,7 +339,7 @@ void stage_fit(struct stage *stage, const struct core *core)
     }
     stage->camera = camera_default();
     if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
-        stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+        stage->camera.azimuth = core->focus.characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     else if (seen[RIG_MODEL] && !seen[RIG_TAIL]) { // as the first one stands
         const int rig = document_next_rig(document, RIG_MODEL, -1);
         const struct imported *first = models_imported(core->models, document, rig);
@@ -349,8 +351,8 @@ void stage_fit(struct stage *stage, const struct core *core)
     stage->figure = (struct rect){0};
     if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
-    const struct rect place = core->layout.stage;
-    const float caption = core->plain ? 0 : caption_height(place, document);
+    const struct rect place = core->view.layout.stage;
+    const float caption = core->view.plain ? 0 : caption_height(place, document);
     camera_fit(&stage->camera, lo, hi, place.w / place.h, caption / place.h);
 
     // Where the motion is in the picture, from the stage's middle in stage heights.
@@ -384,7 +386,7 @@ void stage_frame(struct stage *stage, const struct core *core)
         hi[k] += AROUND * widest;
     }
     const float floor = stage->camera.floor;
-    camera_fit(&stage->camera, lo, hi, core->layout.stage.w / core->layout.stage.h, 0);
+    camera_fit(&stage->camera, lo, hi, core->view.layout.stage.w / core->view.layout.stage.h, 0);
     stage->camera.floor = floor;
 }
 
@@ -394,8 +396,8 @@ void stage_approach(struct stage *stage, float factor) { camera_zoom(&stage->cam
 
 void stage_pose(struct stage *stage, struct core *core, bool covered)
 {
-    if (core->refit_stage) stage_fit(stage, core);
-    core->refit_stage = false;
+    if (core->view.refit_stage) stage_fit(stage, core);
+    core->view.refit_stage = false;
     struct stage_view *view = &stage->view;
     const struct document *document = core->document;
     stage->tail_count = view->character_count = view->model_count = view->blob_count = 0;
@@ -407,7 +409,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
         }
     }
     view->has_tail = stage->tail_count > 0;
-    view->viewport = core->layout.stage;
+    view->viewport = core->view.layout.stage;
     view->colors = theme()->stage;
     camera_reshape(&stage->camera, view->viewport.w / view->viewport.h);
     camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
@@ -432,9 +434,9 @@ void stage_show(struct stage *stage, struct core *core)
     if (stage->tail_count == 0 && view->character_count == 0 && view->model_count == 0) {
         const bool is_missing =
             document_character(core->document, 0) || document_find_rig(core->document, RIG_MODEL, 0) >= 0;
-        const char *text = is_missing         ? "wiggly could not read this scene's character. Its curves are below."
-                           : core->active < 0 ? "This scene is empty."
-                                              : "This scene has no tail. Its curves are below.";
+        const char *text = is_missing ? "wiggly could not read this scene's character. Its curves are below."
+                           : core->focus.active < 0 ? "This scene is empty."
+                                                    : "This scene has no tail. Its curves are below.";
         float room = view->viewport.w - 16, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
         float x = view->viewport.x + 8 + fmaxf(room - width, 0) / 2;
         drawlist_text_fit(&core->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
@@ -447,7 +449,7 @@ void stage_show(struct stage *stage, struct core *core)
     characters_show(stage, core);
 
     // Names of several tails, but for those that would overlap others or whose tail's feet are behind the eye.
-    const struct rect r = core->layout.stage;
+    const struct rect r = core->view.layout.stage;
     struct rect shown[STAGE_MAX_TAILS];
     int count = 0;
     for (int t = 0; t < stage->tail_count && stage->tail_count > 1; t++) {
@@ -481,7 +483,8 @@ void stage_show(struct stage *stage, struct core *core)
     body_drag_show(stage, core);
     record_show(stage, core);
     bones_show(stage, core);
-    if (!core->drag.owner && is_strand(&core->hover)) stage_ring(core, (float[2]){core->hover.x, core->hover.y});
+    if (!core->input.drag.owner && is_strand(&core->input.hover))
+        stage_ring(core, (float[2]){core->input.hover.x, core->input.hover.y});
     drag_show(stage, core);
     pins_show(stage, core);
     drawlist_set_clip(&core->list, clip);

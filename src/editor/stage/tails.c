@@ -74,7 +74,7 @@ static void pose_tail(struct stage *stage, const struct core *core, int rig, int
     (void)n;
     if (stage->tail_count == STAGE_MAX_TAILS) return;
     posing.memory = POSE_SHOWN;
-    const bool has_fox = tail_pose(&posing, rig, core->playback.position, NULL, &posed, &body);
+    const bool has_fox = tail_pose(&posing, rig, core->view.playback.position, NULL, &posed, &body);
     const int room = STAGE_MAX_BLOBS - view->blob_count;
     view->blob_count += pose_blobs(&posed.strand, view->key_from, view->blobs + view->blob_count,
                                    room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
@@ -98,7 +98,7 @@ static void pose_chain(struct stage *stage, const struct core *core, int rig, in
     if (!shown || !chain_find(&shown->gltf, chain->from, chain->to, &bones, NULL)) return;
     bones_mark(stage, core, rig, model, &bones);
     if (stage->strand_count < STAGE_MAX_STRANDS &&
-        strand_pose(stage, core, rig, core->playback.position, NULL, &posed))
+        strand_pose(stage, core, rig, core->view.playback.position, NULL, &posed))
         stage->strands[stage->strand_count++] = (struct shown_strand){rig, -1, posed.strand};
 }
 
@@ -120,7 +120,7 @@ static bool strand_project(const struct stage *stage, const struct core *core, c
     const int next = joint + 1 < strand->count ? joint + 1 : joint;
     const vec3s from = vec3_from(strand->matrix[joint] + 12), to = vec3_from(strand->matrix[next] + 12);
     const vec3s world = glms_vec3_lerp(from, to, (float)fraction);
-    return stage_project_point(stage, core->layout.stage, world.raw, xy);
+    return stage_project_point(stage, core->view.layout.stage, world.raw, xy);
 }
 
 bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
@@ -195,7 +195,7 @@ static struct tail_drag_axis axis_for(const struct core *core, const struct rig 
     int count;
     const struct channel *channels = rig_channels(rig, &count);
     for (int c = 0; c < count; c++) {
-        const bool is_better = !channel || channels[c].spline == core->active;
+        const bool is_better = !channel || channels[c].spline == core->focus.active;
         if (channels[c].axis == axis && is_better) channel = &channels[c];
     }
     for (int n = 0; channel && n <= joint && n < joints; n++)
@@ -266,7 +266,7 @@ static void set_pose(struct stage *stage, struct core *core, const struct tail_d
 {
     struct tail_drag *grab = &stage->tail_drag;
     const struct spline *spline = core->document->splines[axis->spline];
-    const int taken = core->mods & MOD_ALT ? -1 : taken_knot(core, axis->spline, grab->sample);
+    const int taken = core->input.mods & MOD_ALT ? -1 : taken_knot(core, axis->spline, grab->sample);
     struct knot knot = core_knot_at(core->document, axis->spline, grab->sample);
     if (taken >= 0) {
         const double frame = knot.frame;
@@ -299,7 +299,7 @@ static void set_pose(struct stage *stage, struct core *core, const struct tail_d
 static void activate_bending(const struct tail_drag *grab, struct core *core)
 {
     bool steered = false;
-    for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == core->active;
+    for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == core->focus.active;
     if (!steered) core_activate(core, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
 }
 
@@ -308,12 +308,12 @@ static void pull_strand(void *room, struct core *core)
 {
     struct stage *stage = room;
     struct tail_drag *grab = &stage->tail_drag;
-    const struct drag *drag = &core->drag;
+    const struct drag *drag = &core->input.drag;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
     if (!tail_drag_holds(core->document, grab->rig, grab->joint)) return;
     struct rig_pose posed;
     float at[2];
-    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    if (!strand_pose(stage, core, grab->rig, core->view.playback.position, NULL, &posed)) return;
     if (!strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && maths_hypot(miss[0], miss[1]) < CLOSE) return;
@@ -327,7 +327,7 @@ static void pull_strand(void *room, struct core *core)
             float moved[2] = {at[0], at[1]};
             const double change = PROBE * axis->values_per_radian;
             const struct what_if what_if = {axis->spline, part ? 0 : change, part ? change : 0};
-            if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &posed))
+            if (strand_pose(stage, core, grab->rig, core->view.playback.position, &what_if, &posed))
                 strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, moved);
             for (int k = 0; k < 2; k++) column[2 * a + part][k] = (double)(moved[k] - at[k]) / PROBE;
         }
@@ -360,7 +360,7 @@ static void pull_strand(void *room, struct core *core)
         }
         if (axis->active) set_pose(stage, core, axis, to, why);
     }
-    core->drag.hint = grab->hint[0] ? grab->hint : NULL;
+    core->input.drag.hint = grab->hint[0] ? grab->hint : NULL;
     drag_say_stopped(core, why);
     grab->applied = true;
 
@@ -370,12 +370,12 @@ static void pull_strand(void *room, struct core *core)
     const int pulled = spline ? spline_find_knot(core->document, spline, grab->sample) : -1;
     if (pulled < 0) return;
     pins_clear(core);
-    selection_clear(&core->selection);
-    selection_set(&core->selection, spline->knots[pulled].id, true);
+    selection_clear(&core->focus.selection);
+    selection_set(&core->focus.selection, spline->knots[pulled].id, true);
     core_edited(core, -1);
     for (int a = 0; a < 2; a++) {
         const struct tail_drag_axis *axis = &grab->axis[a];
-        if (axis->active && axis->spline != core->active) core_edited(core, axis->spline);
+        if (axis->active && axis->spline != core->focus.active) core_edited(core, axis->spline);
     }
 }
 
@@ -383,17 +383,17 @@ static void end_pull(void *room, struct core *core, bool keep)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
     const bool steers = grab->axis[AXIS_SIDE].active || grab->axis[AXIS_UP].active;
-    if (keep && steers && !core->drag.moved) activate_bending(grab, core);
+    if (keep && steers && !core->input.drag.moved) activate_bending(grab, core);
     stage_click(room, core, keep);
 }
 
 static void show_pull(void *room, struct core *core)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
-    float line[2][2] = {{0}, {core->drag.x, core->drag.y}};
+    float line[2][2] = {{0}, {core->input.drag.x, core->input.drag.y}};
     if (!stage_project(room, core, grab->rig, grab->joint, grab->fraction, line[0])) return;
-    const double across = grab->start[0] + core->drag.moved_x - (double)line[0][0];
-    const double down = grab->start[1] + core->drag.moved_y - (double)line[0][1];
+    const double across = grab->start[0] + core->input.drag.moved_x - (double)line[0][0];
+    const double down = grab->start[1] + core->input.drag.moved_y - (double)line[0][1];
     if (grab->applied && maths_hypot(across, down) > LEAST_LINE)
         drawlist_line(&core->list, line[0], 2, 1.25f, theme()->playhead);
     stage_ring(core, line[0]);
@@ -410,7 +410,7 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
     struct rig_pose posed;
     drag_begin(core, &strand_owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);
     *grab = (struct tail_drag){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
-    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    if (!strand_pose(stage, core, grab->rig, core->view.playback.position, NULL, &posed)) return;
     grab->axis[AXIS_SIDE] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_SIDE);
     grab->axis[AXIS_UP] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_UP);
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
@@ -432,14 +432,14 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
         struct tail_drag_axis *axis = &grab->axis[a];
         const wiggly_value now = evaluation_at(core->evaluation, axis->spline, grab->sample);
         if (axis->active) axis->start[0] = now.y + now.re, axis->start[1] = now.im;
-        axis->swings = axis->active && core->look != LOOK_CUBIC &&
+        axis->swings = axis->active && core->view.look != LOOK_CUBIC &&
                        spline_mode(core->document->splines[axis->spline]) == WIGGLY_COMPLEX;
     }
-    core->playback.playing = false;
-    core->playback.position = grab->sample;
+    core->view.playback.playing = false;
+    core->view.playback.position = grab->sample;
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
-    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    if (!strand_pose(stage, core, grab->rig, core->view.playback.position, NULL, &posed)) return;
     strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, grab->start);
 }
 

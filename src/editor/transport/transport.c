@@ -31,7 +31,7 @@ static const struct {
 };
 
 /// In a narrow window a message takes the whole line.
-static bool is_covered(const struct core *core) { return core->message.text[0] && core->layout.status.w < 640; }
+static bool is_covered(const struct core *core) { return core->message.text[0] && core->view.layout.status.w < 640; }
 
 /// A press or the wheel on a control; true if used.
 static bool use_control(struct core *core, int control, const struct event *event)
@@ -52,13 +52,14 @@ static bool use_control(struct core *core, int control, const struct event *even
 
 static void paint_control(const struct core *core, struct drawlist *list, int control, struct rect r, bool hot)
 {
-    const struct playback *playback = &core->playback;
+    const struct playback *playback = &core->view.playback;
     char speed[16], size[16];
     snprintf(speed, sizeof speed, "%g×", playback->speed);
-    snprintf(size, sizeof size, "%.0f %%", 100 * core->ui_scale);
-    const bool on[] = {[PLAY] = playback->playing,    [LOOP] = playback->looping, [SPEED] = playback->speed != 1,
-                       [AUTO_KEY] = core->auto_key,   [KEEP] = core->keep,        [SIZE] = core->ui_scale != 1,
-                       [PRESENT] = core->presenter.on};
+    snprintf(size, sizeof size, "%.0f %%", 100 * core->view.ui_scale);
+    const bool on[] = {
+        [PLAY] = playback->playing,         [LOOP] = playback->looping, [SPEED] = playback->speed != 1,
+        [AUTO_KEY] = core->step.auto_key,   [KEEP] = core->step.keep,   [SIZE] = core->view.ui_scale != 1,
+        [PRESENT] = core->view.presenter.on};
     const char *const words[CONTROLS] = {
         [LOOP] = "Loop", [SPEED] = speed, [AUTO_KEY] = "Auto-key", [KEEP] = "Keep", [SIZE] = size};
     const uint32_t color = on[control] ? theme()->accent : hot ? theme()->text : theme()->text_dim;
@@ -85,7 +86,7 @@ static void paint_control(const struct core *core, struct drawlist *list, int co
 static float lay_out_controls(struct ui *ui, struct core *core)
 {
     enum { MARGIN = 6, NARROW = 420 /* a window without the least of them */ };
-    const struct rect bar = core->layout.status;
+    const struct rect bar = core->view.layout.status;
     struct rect r = {bar.x + MARGIN, bar.y + 2, 0, bar.h - 3};
     for (int c = 0; c < CONTROLS && !is_covered(core); c++) {
         if (c == KEEP && bar.w < NARROW) continue;
@@ -106,14 +107,14 @@ void transport_event(struct ui *ui, struct core *core, const struct event *event
         core->message.text[0] = '\0';
         return;
     }
-    ui_begin_event(ui, core->layout.status, event);
+    ui_begin_event(ui, core->view.layout.status, event);
     lay_out_controls(ui, core);
     ui_end(ui);
 }
 
 bool transport_target(struct ui *ui, struct core *core, const char *name, float *x, float *y)
 {
-    ui_begin_find(ui, core->layout.status, name, NULL);
+    ui_begin_find(ui, core->view.layout.status, name, NULL);
     lay_out_controls(ui, core);
     const bool found = ui_end(ui);
     *x = ui->found_x;
@@ -129,7 +130,7 @@ void transport_advance(struct core *core, double dt)
     if (status->shown.fps > 0 && status->age < REFRESH) return;
     status->age = 0;
     status->shown = status->told;
-    status->dropped = core->playback.dropped;
+    status->dropped = core->view.playback.dropped;
 }
 
 /// The hint with nothing under the pointer.
@@ -151,7 +152,7 @@ static const char *lead_hint(const struct core *core)
                           "Drag a knot. Space plays, F1 shows all keys"},
     };
     const enum lead lead = rigs_lead(core);
-    if (core->bone.any)
+    if (core->focus.bone.any)
         return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc deselects it";
     if (lead == LEAD_NOTHING && document->spline_count == 0)
         return "A adds a tail, Ctrl+O opens a scene. F1 shows all keys";
@@ -170,7 +171,7 @@ void transport_show(struct ui *ui, struct core *core, const char *hint)
     enum { GAP = 24, STATUS_MARGIN = 12 };
     static const char unkept[] = "Autosave fails: save now (Ctrl+S)"; // no recovery file holds the unsaved work
     static const double SOLVED = 5;                                   // µs; shorter times solved nothing
-    struct rect bar = core->layout.status;
+    struct rect bar = core->view.layout.status;
     const struct message *message = &core->message;
     const struct status *status = &core->status;
     drawlist_rect(&core->list, bar, theme()->panel);
@@ -191,7 +192,7 @@ void transport_show(struct ui *ui, struct core *core, const char *hint)
 
     // Frames per second only while playing: at rest frames follow events, so their rate means nothing.
     char stage[32] = "", fps[64] = "", solve[32] = "", figures[160];
-    if (core->playback.playing && status->shown.fps > 0)
+    if (core->view.playback.playing && status->shown.fps > 0)
         snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->shown.fps, status->dropped);
     if (status->shown.solve_us >= SOLVED && core->evaluation)
         snprintf(solve, sizeof solve, "solve %.0f µs (%s)", status->shown.solve_us,
