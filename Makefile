@@ -3,7 +3,7 @@
 #   make [all]    the binary, the library and the tools
 #   make library  the library alone, static and shared; needs a C compiler, no packages
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
-#   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
+#   make test     builds and runs every test (TESTS="spline test_curves a_case" for rooms, files and cases; JOBS=1 for one at a time)
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
 #   make npm      the npm package, in build/npm
@@ -71,15 +71,20 @@ EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.
 TOOLS := $(filter-out adversary,$(basename $(notdir $(wildcard tools/*.c))))
 MODEL_MAKERS := creature_obj dog_glb fox_glb
 TOOL_PARTS := $(filter-out $(MODEL_MAKERS:%=tools/models/%.c),$(wildcard tools/*/*.c))
-TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
-TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))
+TESTS ?=
+TEST_ROOMS := $(sort $(patsubst tests/%/,%,$(dir $(wildcard tests/*/test_*.c))))
+TEST_SUPPORT := $(wildcard tests/*.c)
 
 GENERATED := $(B)/generated
 OBJECTS := $(SOURCES:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o
 LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(B)/obj/%.o)
 SHARED_LIBRARY := $(B)/libwiggly.so.$(VERSION)
 LIBRARIES := $(B)/libwiggly.a $(if $(findstring mingw,$(CC)),,$(SHARED_LIBRARY))
-TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(filter %.c,$(TESTS)))
+# FILE or FILE:CASE.
+ifneq ($(filter test test-all,$(MAKECMDGOALS)),)
+CHOSEN_TESTS := $(shell tools/find-tests.sh $(TESTS))
+$(if $(filter-out 0,$(.SHELLSTATUS)),$(error see CONTRIBUTING.md, "Build and test"))
+endif
 
 # --- how it is built ---------------------------------------------------------------------------------------------------
 # pkg-config may be installed by this very run, so it is asked when the first recipe needs it, and only once.
@@ -141,9 +146,9 @@ run: $(B)/wiggly
 	$(Q)$(B)/wiggly live --log $(LIVE_LOG) --screenshot $(LIVE_PICTURE) $(ARGS)
 	$(Q)[ ! -s $(LIVE_PICTURE) ] || echo "Picture: $(LIVE_PICTURE), timing log: $(LIVE_LOG)"
 
-test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(MODEL_MAKERS:%=$(B)/%) $(TEST_PROGRAMS)
-	$(Q)B=$(B) WIGGLY=$(B)/wiggly TEST_OUT=$(B)/test-out CC="$(CC)" tools/run-tests.sh \
-	    $(TEST_PROGRAMS) $(filter %.sh,$(TESTS))
+test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(MODEL_MAKERS:%=$(B)/%) \
+    $(patsubst tests/%/,$(B)/tests/%,$(sort $(filter-out tests/,$(dir $(CHOSEN_TESTS)))))
+	$(Q)B=$(B) WIGGLY=$(B)/wiggly TEST_OUT=$(B)/test-out CC="$(CC)" tools/run-tests.sh $(CHOSEN_TESTS)
 
 test-all: export THOROUGH = 1
 test-all: test
@@ -153,7 +158,7 @@ check: | packages
 
 # What make would run to compile everything anew.
 compile_commands.json: | packages
-	$(Q)$(MAKE) --no-print-directory --dry-run --always-make V=1 B=$(B) all $(TEST_PROGRAMS) | tools/compile-commands.sh > $@
+	$(Q)$(MAKE) --no-print-directory --dry-run --always-make V=1 B=$(B) all $(TEST_ROOMS:%=$(B)/tests/%) | tools/compile-commands.sh > $@
 
 help:
 	@sed -n '1,/^$$/s/^# \{0,1\}//p' Makefile
@@ -229,8 +234,12 @@ $(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/tools.a $(B)/parts.a
 # Private: else it would be in the flags of all that a test is made of, where a test is what make is asked for.
 $(B)/obj/tests/%.o: private OWN_CPPFLAGS += -Itests -Itools
 # A test runs once for each time that it is compiled.
-$(B)/obj/tests/test_%.o: private OWN_CFLAGS += -O0
-$(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(B)/tests/libparts.so
+$(TEST_ROOMS:%=$(B)/obj/tests/%/test_%.o): private OWN_CFLAGS += -O0
+define TEST_ROOM
+$(B)/tests/$(1): $(patsubst %.c,$(B)/obj/%.o,$(wildcard tests/$(1)/test_*.c))
+endef
+$(foreach room,$(TEST_ROOMS),$(eval $(call TEST_ROOM,$(room))))
+$(TEST_ROOMS:%=$(B)/tests/%): $(B)/tests/libparts.so
 	$(Q)$(LINK) $^ -Wl,-rpath,'$$ORIGIN' $(TEST_LIBS) $(LIBS) -o $@
 
 # --- generated ---------------------------------------------------------------------------------------------------------

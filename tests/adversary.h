@@ -1,5 +1,5 @@
 /// Splines made from a seed to be hard for the solver, checked against the textbook: no OK above the tolerance, no estimate below the
-/// error, no complaint about easy problems. tests/test_adversary.c tries a few, tools/adversary.c as many as you like.
+/// error, no complaint about easy problems. tests/spline/test_adversary.c tries a few, tools/adversary.c as many as you like.
 #ifndef TESTS_ADVERSARY_H
 #define TESTS_ADVERSARY_H
 

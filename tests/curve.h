@@ -34,7 +34,7 @@ static inline void curve_solve(wiggly_curve *curve, const wiggly_desc *desc)
 
 static inline void curve_destroy(wiggly_curve *curve) { free(curve->total); }
 
-/// For tests_run(): a solver and a curve that all tests of a file share.
+/// For TESTS_BETWEEN(): a solver and a curve that all tests of a file share.
 #define SHARED_SOLVER_AND_CURVE(samples, knots)                                                                      \
     static wiggly_solver *solver;                                                                                    \
     static wiggly_curve curve;                                                                                       \

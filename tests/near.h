@@ -21,19 +21,22 @@
 #undef fail_msg
 #define fail_msg(...) (print_error("ERROR: " __VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 
-/// Adds a test that starts at `line`.
-void tests_add(struct CMUnitTest test, int line);
+/// Adds a test of a file, which starts at `line`.
+void tests_add(const char *file, int line, struct CMUnitTest test);
 
-/// Runs all added tests in the order of their lines, between a common set-up and tear-down (may be NULL). Returns what main() returns. A
-/// test file with a set-up has its own main().
-int tests_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
+/// What runs before the first test of a file and after its last; may be NULL.
+void tests_between(const char *file, CMFixtureFunction set_up, CMFixtureFunction tear_down);
+
+/// TESTS_BETWEEN(set_up, tear_down), once a file.
+#define TESTS_BETWEEN(set_up, tear_down)                                                                             \
+    __attribute__((constructor)) static void add_between(void) { tests_between(__FILE__, set_up, tear_down); }
 
 /// A test with its own set-up and tear-down: TEST_WITH(set_up, tear_down, name) { … }.
 #define TEST_WITH(set_up, tear_down, name)                                                                           \
     static void name(void **state);                                                                                  \
     __attribute__((constructor)) static void add_##name(void)                                                        \
     {                                                                                                                \
-        tests_add((struct CMUnitTest){#name, name, set_up, tear_down, NULL}, __LINE__);                              \
+        tests_add(__FILE__, __LINE__, (struct CMUnitTest){#name, name, set_up, tear_down, NULL});                    \
     }                                                                                                                \
     static void name(__attribute__((unused)) void **state)
 

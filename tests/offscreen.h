@@ -34,10 +34,10 @@ static inline int offscreen_close(void **state)
     return 0;
 }
 
-/// main() of tests that draw pictures of this size.
-#define OFFSCREEN_MAIN(width, height)                                                                                \
+/// For files that draw pictures of this size.
+#define OFFSCREEN(width, height)                                                                                     \
     static int open_picture(__attribute__((unused)) void **state) { return offscreen_open(width, height); }          \
-    int main(void) { return tests_run(open_picture, offscreen_close); }
+    TESTS_BETWEEN(open_picture, offscreen_close)
 
 /// Draws a view over the whole picture and reads it back, bottom row first.
 static inline void offscreen_draw(const struct stage_view *view, int width, int height, void *pixels)

@@ -178,7 +178,7 @@ for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
         done
         grep -oE '`(assets|docs|examples|include|src|shaders|tests|tools)/[^` *]*`' "$document" | tr -d '`' |
             while read -r path; do [ -e "$path" ] || echo "$path"; done
-        grep -oE '`test_[a-z0-9_]+`' "$document" | tr -d '`' | while read -r test; do [ -e "tests/$test.c" ] || echo "$test"; done
+        grep -oE '`test_[a-z0-9_]+`' "$document" | tr -d '`' | while read -r test; do ls tests/*/"$test.c" >/dev/null 2>&1 || echo "$test"; done
         grep -oE '[a-z_]+[a-z0-9_]*\(\)' "$document" | sort -u | tr -d '()' |
             while read -r name; do grep -qrE "\b$name\(" src include tests python/src || echo "$name()"; done
     )
@@ -217,7 +217,7 @@ docs/export.md~up to eight joints per vertex~src/model/gltf.h~GLTF_INFLUENCES = 
 docs/your-character.md~more than 256 MiB~src/model/glb.h~GLB_FILE_LIMIT = 1 << 28
 docs/your-character.md~more than 16,777,216 vertices~src/model/gltf_read.c~VERTEX_LIMIT = 1 << 24
 docs/your-character.md~up to eight joints per vertex~src/model/gltf.h~GLTF_INFLUENCES = 8
-docs/library.md~to 1e-9 of their range~tests/test_vectors.c~agree to 1e-9 of the range
+docs/library.md~to 1e-9 of their range~tests/spline/test_vectors.c~agree to 1e-9 of the range
 docs/library.md~24 a second~src/spline/desc.c~to->step = 1.0 / 24
 docs/library.md~144 frames a second~examples/game_loop.c~1.0 / 144
 docs/measuring.md~frames over 16.7~said~over 16.7 ms
@@ -244,7 +244,7 @@ docs/scene-format.md~joints 24, length 1.6, position [0, 0, 0], rest 0~saved~"jo
 docs/scene-format.md~axis "side", lag 6.5 and gain 5~saved~"axis": "side", "lag": 6.5, "gain": 5
 docs/scene-format.md~2 to 32 places~src/scene/rig.h~RAMP_MAX_POINTS = 32, ///< and at least 2
 docs/scene-format.md~Up to four coordinates~src/scene/rig.h~CHARACTER_MAX_DRIVES = 4
-docs/mathematics.md~at most 1e−9 (cubic) or 1e−8 (other modes)~tests/test_vectors.c~WIGGLY_CUBIC ? 1e-9 : 1e-8
+docs/mathematics.md~at most 1e−9 (cubic) or 1e−8 (other modes)~tests/spline/test_vectors.c~WIGGLY_CUBIC ? 1e-9 : 1e-8
 docs/mathematics.md~exceeds 10⁴ times~src/spline/complete.c~blow_up = 1e4
 docs/mathematics.md~again with c = 0.05~src/spline/problem.h~FALLBACK_CALM 0.05
 docs/mathematics.md~at least 0.05·c~src/spline/poles.h~LEAST_DAMPING 0.05

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Runs test programs (cmocka) and scripts in the root of the tree, one more at once than there are processors. Prints a line for each in the
-# given order, the end of the output of each failed test, the skipped tests, and "N passed, N failed" over all cases. Exit status 1 if any
+# Runs tests in the root of the tree, one more at once than there are processors: tests/ROOM/test_FILE.c by the program of its room (cmocka),
+# with :CASE that case alone, and scripts. Prints a line for each in the given order, the end of the output of each failed test, the skipped tests, and "N passed, N failed" over all cases. Exit status 1 if any
 # failed. Scripts report cases as lines "ok - what" and "not ok - what"; skipped tests say "skip - why", in cmocka's programs too.
 # Environment: JOBS, number of parallel tests; TEST_OUT, a folder for logs and a folder per test to write in; TEST_TIMEOUT, seconds before a
 # test counts as hanging (a loaded machine makes tests ten times as slow).
@@ -19,15 +19,27 @@ touch "$times"
 export ASAN_OPTIONS=${ASAN_OPTIONS:-intercept_tls_get_addr=0}
 trap 'kill $(jobs -p) 2>/dev/null; wait; exit 130' INT TERM
 
+B=${B:-build}
+
+name_of() { # <test>
+    local name=${1##*/}
+    name=${name%:*}
+    echo "${name%.c}"
+}
+
 # Runs one test and writes its exit status and time to its .result file.
 run() { # <test>
-    local name log started status
-    name=$(basename "$1")
+    local name log started status room
+    name=$(name_of "$1")
     log=$TEST_OUT/$name.log
     rm -rf "$TEST_OUT/$name"
     mkdir "$TEST_OUT/$name"
     started=$(date +%s%N)
-    case $1 in *.sh) set -- bash "$1" ;; esac
+    case $1 in
+    *.sh) set -- bash "$1" ;;
+    *.c:*) room=${1%/*} && set -- "$B/$room" "$name" "${1##*:}" ;;
+    *) room=${1%/*} && set -- "$B/$room" "$name" ;;
+    esac
     TEST_OUT=$TEST_OUT/$name timeout -k 10 "${TEST_TIMEOUT:-900}" "$@" >"$log" 2>&1 &
     trap "kill $! 2>/dev/null" TERM
     wait $!
@@ -38,7 +50,7 @@ run() { # <test>
 
 report() { # <test>
     local name log status took good bad
-    name=$(basename "$1")
+    name=$(name_of "$1")
     log=$TEST_OUT/$name.log
     read -r status took <"$TEST_OUT/$name.result"
     good=$(grep -cE '^(\[       OK \]|ok - )' "$log")
@@ -60,7 +72,7 @@ report() { # <test>
 # Prints finished tests up to the first unfinished one.
 reported=0
 report_ended() {
-    while [ $reported -lt ${#tests[@]} ] && [ -e "$TEST_OUT/$(basename "${tests[reported]}").result" ]; do
+    while [ $reported -lt ${#tests[@]} ] && [ -e "$TEST_OUT/$(name_of "${tests[reported]}").result" ]; do
         report "${tests[reported]}"
         reported=$((reported + 1))
     done
@@ -71,7 +83,7 @@ long=" test_web.sh test_python.sh test_starve test_blender.sh test_monkey test_n
 longest_first() { # <test>...
     local test took name
     for test in "$@"; do
-        name=$(basename "$test")
+        name=$(name_of "$test")
         took=$(awk -v name="$name" '$2 == name { print $1 }' "$times")
         [[ $long != *" $name "* ]] || took=${took:-3000000}
         case $test in *.sh) echo "${took:-2000000} $test" ;; *) echo "${took:-1000000} $test" ;; esac
@@ -80,7 +92,7 @@ longest_first() { # <test>...
 
 tests=("$@")
 mapfile -t order < <(longest_first "$@")
-for test in "$@"; do rm -f "$TEST_OUT/$(basename "$test").result"; done
+for test in "$@"; do rm -f "$TEST_OUT/$(name_of "$test").result"; done
 running=0
 for test in "${order[@]}"; do
     if [ $running -eq "$JOBS" ]; then
@@ -97,7 +109,7 @@ while [ $running -gt 0 ]; do
     report_ended
 done
 for test in "$@"; do
-    name=$(basename "$test")
+    name=$(name_of "$test")
     awk -v name="$name" '{ print $2, name }' "$TEST_OUT/$name.result"
 done | cat - "$times" | awk '!seen[$2]++' >"$times.new"
 mv "$times.new" "$times"

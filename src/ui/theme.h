@@ -19,7 +19,7 @@ struct stage_colors {
 };
 
 /// Text colours (text, text_dim, accent, warning, error) have a contrast of at least 4.5:1 on panel and raised, `text` and `text_dim` also
-/// on fill, hover and stage. `control`, spline colours and other non-text colours have 3:1. tests/test_theme.c lists the pairs.
+/// on fill, hover and stage. `control`, spline colours and other non-text colours have 3:1. tests/draw/test_theme.c lists the pairs.
 struct theme {
     const char *name; ///< in settings and on the command line
     uint32_t panel, border;
@@ -66,7 +66,7 @@ enum { THEME_INSPECTOR_WIDTH = 280, THEME_STATUS_HEIGHT = 24 };
 
 /// The colour of a movement z = re + j·im, amplitude |z| ≤ 1, phase lead arg z, in linear RGB. Phases lie on a tilted circle in Oklab: hue
 /// is uniform, lightness varies by 0.22 with its maximum at 65°, between yellow (in step) and cyan (a quarter ahead). The tilt lets phases
-/// an eighth of a turn apart differ under every kind of colour blindness (tests/test_theme.c). Distance from the grey centre is the
+/// an eighth of a turn apart differ under every kind of colour blindness (tests/draw/test_theme.c). Distance from the grey centre is the
 /// amplitude to the power 0.6. The surface also has lines between the eighths (stage_mesh.frag).
 void phase_color_linear(float re, float im, float rgb[3]);
 

@@ -1,0 +1,21 @@
+#!/bin/sh
+# Prints the tests that the words name, all of them where there is no word: FILE or FILE:CASE. A word is a room (spline), a file
+# (test_curves, curves.c, spline/test_spline, tests/test_cli.sh) or a case.
+cd "$(dirname "$0")/.." || exit 1
+[ $# -gt 0 ] || set -- tests/*/test_*.c tests/test_*.sh
+for word in "$@"; do
+    path=tests/${word#tests/}
+    name=${word##*/}
+    name=${name#test_}
+    name=${name%.*}
+    if [ -f "$path" ]; then
+        echo "$path"
+    elif [ -f "$path.c" ]; then
+        echo "$path.c"
+    elif ! { ls "$path"/test_*.c || ls tests/*/"test_$name.c" tests/"test_$name.sh" | grep . ||
+        grep -HE "^[A-Z]*_?TEST[A-Z_]*\((.*, )?(test_)?$name[,)]" tests/*/test_*.c |
+        sed -E "s/^([^:]*):.*\W((test_)?$name)[,)].*/\1:\2/" | grep .; } 2>/dev/null; then
+        echo "make test: no room, file or case of tests is called $word" >&2
+        exit 1
+    fi
+done
