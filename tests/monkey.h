@@ -4,7 +4,7 @@
 #define TESTS_MONKEY_H
 
 #include "blind.h"
-#include "inside.h"
+#include "questions.h"
 
 #include <unistd.h>
 
@@ -75,7 +75,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
 {
     struct app *app = &m->blind->app;
     const struct document *d = app->work.document;
-    const struct spline *spline = core_active_spline(&app->work.editor->core);
+    const struct spline *spline = active_spline(app->work.editor);
     const int tails = document_count_rigs(d, RIG_TAIL);
     const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))]->name : NULL;
     char target[512] = "";
@@ -107,8 +107,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
 static inline bool find_widget(struct monkey *m, float *x, float *y)
 {
     const struct editor *editor = m->blind->app.work.editor;
-    const struct ui *ui =
-        editor->dialogs->dialog.kind != DIALOG_NONE ? &editor->dialogs->dialog.ui : &editor->inspector->ui;
+    const struct ui *ui = asked(editor) != DIALOG_NONE ? &dialog_of(editor)->ui : inspector_of(editor);
     if (ui->stop_count == 0) return false;
     const struct rect r = ui->stop[below(m, ui->stop_count)].rect;
     *x = r.x + r.w * (float)below(m, 101) / 100;
@@ -118,7 +117,7 @@ static inline bool find_widget(struct monkey *m, float *x, float *y)
 
 static inline void monkey_point(struct monkey *m)
 {
-    const struct rect window = m->blind->app.work.editor->core.view.layout.window;
+    const struct rect window = layout_of(m->blind->app.work.editor)->window;
     float x = window.w * (float)(below(m, 1100) - 50) / 1000, y = window.h * (float)(below(m, 1100) - 50) / 1000;
     const int what = below(m, 5);
     if (what < 2) find_thing(m, &x, &y);

@@ -2,7 +2,7 @@
 #ifndef TESTS_PANEL_SESSION_H
 #define TESTS_PANEL_SESSION_H
 
-#include "inside.h"
+#include "questions.h"
 #include "session.h"
 
 #include "rig/models.h"
@@ -51,19 +51,19 @@ static inline void panel_type(struct session *session, const char *text)
 static inline bool panel_shows(struct session *session, const char *name)
 {
     float x, y;
-    return inspector_target(session->editor->inspector, name, &x, &y);
+    return widget_at(session->editor, name, &x, &y);
 }
 
 /// The id of a widget in sight; 0: none.
 static inline uint32_t panel_id(struct session *session, const char *name)
 {
-    return panel_shows(session, name) ? session->editor->inspector->ui.found : 0;
+    return panel_shows(session, name) ? inspector_of(session->editor)->found : 0;
 }
 
 /// Goes on with Tab until the widget has the focus.
 static inline void panel_tab_to(struct session *session, const char *name)
 {
-    struct ui *ui = &session->editor->inspector->ui;
+    struct ui *ui = inspector_of(session->editor);
     for (int i = 0; i < UI_MAX_FOCUS && (!ui->focus || ui->focus != panel_id(session, name)); i++)
         session_key(session, KEY_TAB, 0);
     assert_int_not_equal(ui->focus, 0);
@@ -74,7 +74,7 @@ static inline void panel_tab_to(struct session *session, const char *name)
 static inline void panel_press(struct session *session, const char *name, int clicks)
 {
     float x, y;
-    if (!inspector_target(session->editor->inspector, name, &x, &y)) {
+    if (!widget_at(session->editor, name, &x, &y)) {
         fail_msg("the inspector does not show %s", name);
     }
     session_move(session, x, y);
@@ -103,7 +103,7 @@ static inline void panel_drag(struct session *session, const char *name, double 
     float x, y;
     panel_press(session, name, 1);
     snprintf(target, sizeof target, "%s,%.17g", name, value);
-    assert_true(inspector_target(session->editor->inspector, target, &x, &y));
+    assert_true(widget_at(session->editor, target, &x, &y));
     session_move(session, x + 3, y); // makes it a drag even if the handle is already there
     session_move(session, x, y);
     session_frame(session);
@@ -128,7 +128,7 @@ static inline void panel_unfold(struct session *session)
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         char name[32];
         snprintf(name, sizeof name, "section.%s", sections[i]);
-        inspector_unfold(session->editor->inspector, name);
+        unfold(session->editor, name);
     }
     session_frame(session);
 }
@@ -142,7 +142,7 @@ static inline void panel_answer(struct session *session, enum request_kind kind,
 /// Whether the editor draws this text uncut.
 static inline bool session_shows(const struct session *s, const char *text)
 {
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
         if (c->kind == DRAW_TEXT && c->clip.w > 0 && strcmp(list->text + c->first, text) == 0) return true;

@@ -3,7 +3,7 @@
 #define TESTS_SESSION_H
 
 #include "documents.h"
-#include "inside.h"
+#include "questions.h"
 
 #include "app/state.h"
 #include "base/file.h"
@@ -216,14 +216,14 @@ static inline void session_open(struct session *session, const char *scene)
     session->history = history_create(session->document);
     assert_non_null(session->history);
     session->editor = editor_create();
-    session->editor->core.view.more = true; // shows everything in the inspector
+    show_more(session->editor, true); // shows everything in the inspector
     session->work = (struct workspace){.editor = session->editor,
                                        .document = session->document,
                                        .history = session->history,
                                        .models = models_create()};
     session->world = workspace_world(&session->work);
     editor_open(session->editor, &session->world);
-    if (session->editor->core.view.playback.playing) session_key(session, KEY_SPACE, 0);
+    if (playback_of(session->editor)->playing) session_key(session, KEY_SPACE, 0);
     session_frame(session);
 }
 

@@ -2,7 +2,7 @@
 #include "blind.h"
 #include "documents.h"
 #include "folder.h"
-#include "inside.h"
+#include "questions.h"
 
 #include "scene/load.h"
 #include "shown.h"
@@ -41,7 +41,7 @@ static const char old_scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"rigs\": 
 /// What an old scene showed and this wiggly does not is said, and saving keeps it.
 TEST_OF(struct blind, blind, open_scene(blind, old_scene), close_scene(blind), a_meadow_is_not_lost)
 {
-    assert_non_null(strstr(blind->app.work.editor->core.message.text, "Meadows are no longer shown"));
+    assert_said(blind->app.work.editor, "Meadows are no longer shown");
     blind_key(blind, 'S', MOD_CTRL);
     struct document *saved = document_of_file(scene());
     assert_true(scene_has_meadow(saved));
@@ -57,7 +57,7 @@ static void send_pointer(struct blind *blind, enum event_kind kind, float x, flo
 TEST_OF(struct blind, blind, open_scene(blind, two_knots), close_scene(blind), a_figure_asks_before_it_replaces_work)
 {
     struct app *app = &blind->app;
-    const struct dialog *dialog = &app->work.editor->dialogs->dialog;
+    const struct dialog *dialog = dialog_of(app->work.editor);
     blind_key(blind, 'M', 0);
     assert_false(history_is_saved(app->work.history));
     char *edited = text_of_document(app->work.document);
@@ -112,10 +112,10 @@ TEST(poles_of_figure_2_are_in_sight)
         blind_frame(&blind);
         blind_frame(&blind);
         struct editor *editor = blind.app.work.editor;
-        assert_true(inspector_target(editor->inspector, "pole.centre", &x, &y));
+        assert_true(widget_at(editor, "pole.centre", &x, &y));
         const struct draw_command *axis = shown_text(editor, "-1 Hz"); // below the response
         assert_non_null(axis);
-        assert_true(axis->y < editor->core.view.layout.inspector.y + editor->core.view.layout.inspector.h - 40);
+        assert_true(axis->y < layout_of(editor)->inspector.y + layout_of(editor)->inspector.h - 40);
         blind_close(&blind);
     }
 }
@@ -138,7 +138,7 @@ static void assert_knots_in_file(const char *path, int knots)
 static void assert_save_fails(struct blind *blind)
 {
     blind_key(blind, 'S', MOD_CTRL);
-    const struct message *message = &blind->app.work.editor->core.message;
+    const struct message *message = message_of(blind->app.work.editor);
     assert_true(message->is_error);
     assert_non_null(strstr(message->text, scene()));
     assert_null(strchr(message->text, '\n'));

@@ -1,5 +1,6 @@
 /// The card for newcomers stands beside what a scene shows, or in a band above it, on every size of stage.
 #include "blind.h"
+#include "questions.h"
 #include "shown.h"
 
 #include "editor/stage/state.h"
@@ -15,11 +16,11 @@ static void open_scene(struct blind *b, const char *scene)
     blind_open(b, path);
 }
 
-static void welcome(struct blind *b, float width)
+static void open_welcome(struct blind *b, float width)
 {
     app_resize(&b->app, width, roundf(width * 9 / 16), 1);
     b->app.work.editor->core.view.refit_stage = true; // as in a window of that size
-    dialogs_welcome(b->app.work.editor->dialogs);
+    welcome(b->app.work.editor);
     for (int i = 0; i < 2; i++) blind_frame(b);
 }
 
@@ -50,9 +51,9 @@ TEST(it_covers_no_character)
         struct blind b;
         open_scene(&b, scenes[i]);
         for (float width = 640; width <= 1280; width += 80) {
-            welcome(&b, width);
+            open_welcome(&b, width);
             const struct editor *editor = b.app.work.editor;
-            const struct rect card = words(editor), stage = editor->core.view.layout.stage;
+            const struct rect card = words(editor), stage = layout_of(editor)->stage;
             if (covers_a_character(editor, card)) fail_msg("%s at %g", scenes[i], (double)width);
             assert_true(card.x >= stage.x && card.x + card.w <= stage.x + stage.w);
             assert_true(card.y >= stage.y && card.y + card.h <= stage.y + stage.h);
@@ -67,7 +68,7 @@ TEST(a_click_on_it_takes_it_away)
     for (float width = 640; width <= 1280; width += 640) {
         struct blind b;
         open_scene(&b, "compositing");
-        welcome(&b, width);
+        open_welcome(&b, width);
         const struct editor *editor = b.app.work.editor;
         const struct rect card = words(editor);
         const bool is_band = width < 1000;
@@ -80,7 +81,7 @@ TEST(a_click_on_it_takes_it_away)
                                           .x = card.x + card.w / 2,
                                           .y = card.y + card.h / 2});
         blind_frame(&b);
-        assert_false(dialogs_is_welcoming(editor->dialogs));
+        assert_false(is_welcoming(editor));
         assert_non_null(shown_text(editor, "Compositing"));
         blind_close(&b);
     }

@@ -1,6 +1,6 @@
 /// The demo: all of it can be played, it begins anew by itself, and the first touch ends it.
 #include "blind.h"
-#include "inside.h"
+#include "questions.h"
 #include "scene/load.h"
 #include "shown.h"
 
@@ -34,7 +34,7 @@ DEMO_TEST(test_all_of_it_plays_and_begins_anew)
         for (int r = 0; r < document->rig_count; r++) seen[document->rigs[r]->kind] = true;
         light |= theme_in_use() == THEME_LIGHT;
         presents |= b->app.work.editor->core.view.presenter.on;
-        records |= strstr(b->app.work.editor->core.message.text, "knots recorded") != NULL;
+        records |= strstr(said(b->app.work.editor), "knots recorded") != NULL;
         if (strcmp(last, caption(b)) == 0) continue;
         snprintf(last, sizeof last, "%s", caption(b));
         if (!shown_text(b->app.work.editor, last)) fail_msg("the caption “%s” does not fit", last);
@@ -58,7 +58,7 @@ static void plays_until(const struct event *event, bool stops)
     demo_open(&b);
     const uint64_t first = scene_now(&b);
     for (int i = 0; i < 9 * 60; i++) blind_frame(&b); // in the middle of a drag
-    assert_string_equal(b.app.work.editor->core.input.drag.label, "Move body");
+    assert_string_equal(dragged(b.app.work.editor), "Move body");
     blind_send(&b, *event);
     blind_frame(&b);
     assert_int_equal(b.app.demo.on, !stops);
@@ -66,7 +66,7 @@ static void plays_until(const struct event *event, bool stops)
         assert_int_equal(scene_now(&b), first);
         assert_true(history_is_saved(b.app.work.history));
         assert_string_equal(caption(&b), "");
-        assert_null(b.app.work.editor->core.input.drag.owner);
+        assert_false(is_dragging(b.app.work.editor));
         blind_frame(&b);
         assert_null(b.app.replay);
     }

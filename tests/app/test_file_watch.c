@@ -1,6 +1,6 @@
 /// A file that another program, or a second window, writes while it is open here: nobody's work is overwritten without a word.
 #include "blind.h"
-#include "inside.h"
+#include "questions.h"
 
 #include "folder.h"
 #include "scene/load.h"
@@ -40,8 +40,6 @@ static bool holds(const char *path, const char *name)
     return strstr(text, quoted) != NULL;
 }
 
-static enum dialog_kind asked(const struct blind *blind) { return blind->app.work.editor->dialogs->dialog.kind; }
-
 /// A scene with a knot that is not saved.
 static void open_mine(struct blind *blind)
 {
@@ -57,8 +55,8 @@ static void open_changed(struct blind *blind)
     open_mine(blind);
     write_scene(theirs);
     blind_key(blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(blind), DIALOG_CHANGED);
-    assert_string_equal(blind->app.work.editor->dialogs->dialog.question.title, "walk.json has changed on the disk");
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_CHANGED);
+    assert_string_equal(dialog_of(blind->app.work.editor)->question.title, "walk.json has changed on the disk");
     assert_true(holds(scene(), "theirs"));
 }
 
@@ -67,18 +65,18 @@ static void open_changed(struct blind *blind)
 CHANGED_TEST(keep_mine_writes_it)
 {
     blind_key(blind, 'K', 0);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
     assert_true(history_is_saved(blind->app.work.history));
     blind_key(blind, 'I', MOD_SHIFT);
     blind_key(blind, 'S', MOD_CTRL); // mine again: nothing to ask
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
 }
 
 CHANGED_TEST(take_theirs_can_be_undone)
 {
     blind_key(blind, 'T', 0);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     assert_string_equal(blind->app.work.document->splines[0]->name, "theirs");
     assert_string_equal(app_path(&blind->app), scene());
     assert_true(history_is_saved(blind->app.work.history));
@@ -93,20 +91,20 @@ CHANGED_TEST(broken_theirs_is_not_taken)
 {
     write_scene("{");
     blind_key(blind, 'T', 0);
-    assert_int_equal(asked(blind), DIALOG_CHANGED);
-    assert_non_null(strstr(blind->app.work.editor->dialogs->dialog.error, "walk.json:1"));
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_CHANGED);
+    assert_non_null(strstr(asked_error(blind->app.work.editor), "walk.json:1"));
     assert_string_equal(blind->app.work.document->splines[0]->name, "mine");
     blind_key(blind, KEY_ESCAPE, 0);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
 }
 
 CHANGED_TEST(save_as_keeps_both)
 {
     blind_key(blind, KEY_ENTER, 0); // the one that loses nothing
-    assert_int_equal(asked(blind), DIALOG_SAVE_AS);
-    ui_text_set(&blind->app.work.editor->dialogs->dialog.ui.text, folder_path("other.json"));
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_SAVE_AS);
+    ui_text_set(&dialog_of(blind->app.work.editor)->ui.text, folder_path("other.json"));
     blind_key(blind, KEY_ENTER, 0);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     assert_true(holds(scene(), "theirs"));
     assert_true(holds(folder_path("other.json"), "mine"));
 }
@@ -119,18 +117,18 @@ MINE_TEST(save_as_over_theirs_asks)
     write_scene(theirs);
     blind_key(blind, 'S', MOD_CTRL | MOD_SHIFT);
     blind_key(blind, KEY_ENTER, 0);
-    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_CHANGED);
     assert_true(holds(scene(), "theirs"));
 }
 
 CHANGED_TEST(cancel_writes_nothing)
 {
     blind_key(blind, KEY_ESCAPE, 0);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     assert_true(holds(scene(), "theirs"));
     assert_false(history_is_saved(blind->app.work.history));
     blind_key(blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(blind), DIALOG_CHANGED); // asked again
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_CHANGED); // asked again
 }
 
 /// Saving on the way out asks as well, and the way out goes on afterwards.
@@ -139,7 +137,7 @@ MINE_TEST(quitting_asks_as_well)
     write_scene(theirs);
     blind_key(blind, 'Q', MOD_CTRL);
     blind_key(blind, 'S', 0);
-    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_CHANGED);
     blind_send(blind, (struct event){.kind = EVENT_KEY, .key = 'K', .action = ACTION_PRESS});
     app_frame(&blind->app);
     app_frame(&blind->app);
@@ -150,20 +148,20 @@ MINE_TEST(quitting_asks_as_well)
 MINE_TEST(focus_asks_once_a_change)
 {
     focus(blind);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     write_scene(theirs);
     focus(blind);
-    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_CHANGED);
     blind_key(blind, KEY_ESCAPE, 0);
     focus(blind);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     write_scene("{\"wiggly\": 1, \"splines\": [{\"name\": \"once more\", \"knots\": []}]}");
     focus(blind);
-    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_CHANGED);
     blind_key(blind, 'K', 0);
     assert_true(holds(scene(), "once more")); // not before the next save
     blind_key(blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
 }
 
@@ -177,11 +175,11 @@ MINE_TEST(the_same_content_is_no_change)
              scene(), scene(), scene());
     assert_int_equal(system(command), 0);
     focus(blind);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     assert_int_equal(unlink(scene()), 0); // nor is one that is gone: saving loses nobody's work
     focus(blind);
     blind_key(blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
 }
 
@@ -194,7 +192,7 @@ MINE_TEST(the_content_counts)
     assert_int_equal(utimensat(AT_FDCWD, scene(), (struct timespec[]){about.st_mtim, {about.st_mtim.tv_sec, 1}}, 0),
                      0);
     blind_key(blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    assert_int_equal(asked(blind->app.work.editor), DIALOG_CHANGED);
 }
 
 TEST(the_mouse_answers)
@@ -214,7 +212,7 @@ TEST(the_mouse_answers)
                                               .x = x,
                                               .y = y});
         blind_frame(&blind);
-        assert_int_equal(asked(&blind), i == 1 ? DIALOG_SAVE_AS : DIALOG_NONE);
+        assert_int_equal(asked(blind.app.work.editor), i == 1 ? DIALOG_SAVE_AS : DIALOG_NONE);
         assert_int_equal(holds(scene(), "mine"), i == 3);
         blind_close(&blind);
     }
@@ -249,16 +247,16 @@ TEST(what_others_wrote_before_recovery_is_noticed)
         if (when == ONCE_KEPT) write_scene(theirs);
         for (int crashes = 0; crashes < 2; crashes++) {
             open_at_desk(&blind);
-            assert_int_equal(asked(&blind), DIALOG_RECOVER);
+            assert_int_equal(asked(blind.app.work.editor), DIALOG_RECOVER);
             blind_key(&blind, 'R', 0);
             assert_int_equal(blind.app.work.document->splines[0]->knot_count, 1);
             if (crashes == 0) crash(&blind);
         }
         blind_key(&blind, 'S', MOD_CTRL);
-        assert_int_equal(asked(&blind), when == NEVER ? DIALOG_NONE : DIALOG_CHANGED);
+        assert_int_equal(asked(blind.app.work.editor), when == NEVER ? DIALOG_NONE : DIALOG_CHANGED);
         assert_int_equal(holds(scene(), "theirs"), when != NEVER);
         if (when != NEVER) blind_key(&blind, 'K', 0);
-        assert_int_equal(asked(&blind), DIALOG_NONE);
+        assert_int_equal(asked(blind.app.work.editor), DIALOG_NONE);
         assert_true(holds(scene(), "mine"));
         assert_true(history_is_saved(blind.app.work.history));
         personal_end(&blind.app, false);
@@ -273,7 +271,7 @@ static int prepare(void **state)
 }
 
 /// Asks the app for something, and returns what it says about it, once it does.
-static const char *said(struct blind *blind, enum request_kind kind, const char *path)
+static const char *answer_to(struct blind *blind, enum request_kind kind, const char *path)
 {
     struct core *core = &blind->app.work.editor->core;
     core->message = (struct message){0};
@@ -298,7 +296,7 @@ MINE_TEST(a_replay_writes_where_it_may)
     blind->app.replay = replay_parse("a", header, sizeof header - 1, NULL);
     assert_non_null(blind->app.replay);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        const char *text = said(blind, kinds[i], own);
+        const char *text = answer_to(blind, kinds[i], own);
         if (strcmp(text, "Nothing was written: a replay writes only with --saves DIR.") != 0)
             fail_msg("%zu: %s", i, text);
     }
@@ -306,9 +304,9 @@ MINE_TEST(a_replay_writes_where_it_may)
     assert_int_not_equal(access(own, F_OK), 0);
     assert_int_equal(mkdir(saves, 0777), 0);
     blind->options.saves = saves;
-    assert_non_null(strstr(said(blind, REQUEST_SAVE, NULL), "/saves/own.csv."));
-    assert_non_null(strstr(said(blind, REQUEST_SAVE_AS, "/no/../where/else.json"), "/saves/else.json."));
-    assert_non_null(strstr(said(blind, REQUEST_SAVE_AS, "/no/where/.."), "expected the path of a file"));
+    assert_non_null(strstr(answer_to(blind, REQUEST_SAVE, NULL), "/saves/own.csv."));
+    assert_non_null(strstr(answer_to(blind, REQUEST_SAVE_AS, "/no/../where/else.json"), "/saves/else.json."));
+    assert_non_null(strstr(answer_to(blind, REQUEST_SAVE_AS, "/no/where/.."), "expected the path of a file"));
     assert_int_not_equal(access(own, F_OK), 0);
     assert_true(file_content(scene()) == before);
 }
@@ -342,7 +340,7 @@ TEST(a_pipe_is_neither_read_nor_written)
         unlink(path);
         assert_int_equal(mkfifo(path, 0600), 0);
         const char *text = "";
-        for (int k = 0; k < asked_for[i].times; k++) text = said(&blind, asked_for[i].kind, path);
+        for (int k = 0; k < asked_for[i].times; k++) text = answer_to(&blind, asked_for[i].kind, path);
         if (!strstr(text, "expected a file, got something else")) fail_msg("%s: \"%s\"", path, text);
         assert_int_equal(stat(path, &about), 0);
         assert_true(S_ISFIFO(about.st_mode));
@@ -375,14 +373,14 @@ TEST(what_the_scene_is_read_from_stays)
     blind_frame(&blind);
     for (size_t i = 0; i < sizeof asked_for / sizeof *asked_for; i++) {
         for (int times = 0; times < 2; times++) {
-            const char *text = said(&blind, asked_for[i].kind, folder_path(asked_for[i].name));
+            const char *text = answer_to(&blind, asked_for[i].kind, folder_path(asked_for[i].name));
             if (!strstr(text, "this scene is read from it: choose another name"))
                 fail_msg("%s: \"%s\"", asked_for[i].name, text);
         }
         assert_true(file_content(folder_path("dog.glb")) == model);
         assert_true(file_content(own) == scene);
     }
-    const char *text = said(&blind, REQUEST_EXPORT, folder_path("other.glb"));
+    const char *text = answer_to(&blind, REQUEST_EXPORT, folder_path("other.glb"));
     if (!strstr(text, "Wrote")) fail_msg("%s", text);
     blind_close(&blind);
 }

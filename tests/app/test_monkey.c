@@ -179,23 +179,21 @@ static void assert_curves_are_finite(const struct app *app)
 /// only such as undo can bring back: no knot to come is.
 static void assert_editor(const struct app *app)
 {
-    const struct editor *editor = app->work.editor;
+    struct editor *editor = app->work.editor;
     const struct document *d = app->work.document;
-    bool dragging = editor->core.input.drag.owner || inspector_is_dragging(editor->inspector);
-    const struct ui *ui = &editor->inspector->ui;
+    bool dragging = is_dragging(editor) || inspector_is_dragging(editor->inspector);
+    const struct ui *ui = inspector_of(editor);
     if (history_is_open(app->work.history) && !dragging) {
-        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d",
-                 editor->core.input.drag.owner != NULL, editor->core.input.drag.moved, ui->held, ui->moved,
-                 editor->dialogs->dialog.kind);
+        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", is_dragging(editor),
+                 editor->core.input.drag.moved, ui->held, ui->moved, asked(editor));
     }
-    if (d->spline_count == 0) assert_int_equal(editor->core.focus.active, -1);
-    if (d->spline_count > 0) assert_in_range(editor->core.focus.active, 0, d->spline_count - 1);
-    if (editor->core.focus.active >= 0)
-        assert_int_equal(d->splines[editor->core.focus.active]->id, editor->core.focus.active_id);
+    if (d->spline_count == 0) assert_int_equal(active(editor), -1);
+    if (d->spline_count > 0) assert_in_range(active(editor), 0, d->spline_count - 1);
+    if (active(editor) >= 0) assert_int_equal(d->splines[active(editor)]->id, editor->core.focus.active_id);
     for (unsigned id = d->next_id; id < editor->core.focus.selection.capacity; id++) {
-        assert_false(selection_has(&editor->core.focus.selection, id));
+        assert_false(selection_has(selection_of(editor), id));
     }
-    assert_in_range(editor->core.view.playback.position, 0, document_samples(d) - 1);
+    assert_in_range(playback_of(editor)->position, 0, document_samples(d) - 1);
 }
 
 /// Lets go of everything.
@@ -217,17 +215,17 @@ static void assert_undone(struct monkey *m, struct origin *origin)
     hands_off(m);
     watch_origin(origin, app);
     const size_t all = history_count(app->work.history), done = history_done(app->work.history);
-    core_jump(&app->work.editor->core, all);
+    undo_to(app->work.editor, all);
     char *last = text_of_document(app->work.document);
-    core_jump(&app->work.editor->core, 0);
+    undo_to(app->work.editor, 0);
     blind_frame(m->blind);
     if (history_dropped(app->work.history) > 0 || app->work.document->serial != origin->serial)
         remember(origin, app->work.document);
     assert_prints(app->work.document, origin->text);
-    core_jump(&app->work.editor->core, all);
+    undo_to(app->work.editor, all);
     blind_frame(m->blind);
     assert_prints(app->work.document, last);
-    core_jump(&app->work.editor->core, done);
+    undo_to(app->work.editor, done);
     free(last);
 }
 
@@ -256,7 +254,7 @@ static void assert_rescued(struct app *app)
 static void keep_small(struct app *app)
 {
     while (document_samples(app->work.document) * (app->work.document->spline_count + 1) > MOST_SAMPLES) {
-        core_undo(&app->work.editor->core, -1);
+        undo(app->work.editor);
         if (!history_redo_label(app->work.history)) return;
     }
 }
@@ -391,7 +389,7 @@ static void lose_display(struct run *run)
     end(run, true);
     start(run, NULL);
     run->checked = 0;
-    const bool offered = app->work.editor->dialogs->dialog.kind == DIALOG_RECOVER;
+    const bool offered = asked(app->work.editor) == DIALOG_RECOVER;
     assert_int_equal(offered, unsaved);
     const bool recover = !one_in(&run->monkey, 4);
     if (offered) monkey_key(&run->monkey, recover ? 'R' : 'D', 0);

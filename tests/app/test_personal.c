@@ -1,7 +1,7 @@
 /// What a window remembers for the user from run to run: looks, panels, recent files and the last export.
 #include "blind.h"
 #include "folder.h"
-#include "inside.h"
+#include "questions.h"
 
 #include "app/settings.h"
 #include "ui/theme.h"
@@ -48,8 +48,8 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
     assert_near(blind.app.ui_scale, 1.5, 0);
     assert_true(blind.app.work.editor->core.view.more);
     assert_false(blind.app.work.editor->core.step.keep);
-    assert_near(blind.app.work.editor->core.view.layout.stage_share, 0.4, 1e-6);
-    assert_near(blind.app.work.editor->core.view.layout.inspector_width, 333, 1e-9);
+    assert_near(layout_of(blind.app.work.editor)->stage_share, 0.4, 1e-6);
+    assert_near(layout_of(blind.app.work.editor)->inspector_width, 333, 1e-9);
     end(&blind);
     theme_use(before);
 }
@@ -61,7 +61,7 @@ TEST_WITH(folder_make, folder_remove, the_welcome_comes_once)
     for (int run = 0; run < 3; run++) {
         start(&blind);
         personal_update(&blind.app);
-        assert_int_equal(dialogs_is_welcoming(blind.app.work.editor->dialogs), run < 2);
+        assert_int_equal(is_welcoming(blind.app.work.editor), run < 2);
         blind_frame(&blind);
         if (run == 1) {
             blind_key(&blind, KEY_ESCAPE, 0);
@@ -106,7 +106,7 @@ TEST_WITH(folder_make, folder_remove, settings_that_cannot_be_stored_are_said)
     struct blind blind;
     start(&blind);
     personal_note_file(&blind.app, folder_file("one.json", ""));
-    const struct message *message = &blind.app.work.editor->core.message;
+    const struct message *message = message_of(blind.app.work.editor);
     assert_false(message->is_error);
     assert_int_equal(rename(folder_path("wiggly"), folder_path("was")), 0);
     folder_file("wiggly", "");

@@ -1,7 +1,7 @@
 /// Larger type, and presenting: how large everything is, panels that slide away, keys as they are pressed.
 #include "blind.h"
 #include "documents.h"
-#include "inside.h"
+#include "questions.h"
 #include "shown.h"
 
 static struct core *core_of(struct blind *b) { return &b->app.work.editor->core; }

@@ -1,7 +1,7 @@
 /// A start after a kill: which scene is on the table, and what is offered.
 #include "blind.h"
 #include "documents.h"
-#include "inside.h"
+#include "questions.h"
 
 #include "app/recovery.h"
 #include "base/file.h"
@@ -65,8 +65,8 @@ static void end(struct blind *blind)
     blind_close(blind);
 }
 
-static const struct dialog *dialog(const struct blind *blind) { return &blind->app.work.editor->dialogs->dialog; }
-static const char *message(const struct blind *blind) { return blind->app.work.editor->core.message.text; }
+static const struct dialog *dialog(const struct blind *blind) { return dialog_of(blind->app.work.editor); }
+static const char *message(const struct blind *blind) { return said(blind->app.work.editor); }
 static const char *shown(const struct blind *blind) { return blind->app.work.document->splines[0]->name; }
 
 /// Enter would recover: it is not asked about, so that nothing comes in place of the scene.

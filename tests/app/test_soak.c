@@ -1,7 +1,7 @@
 /// The app left alone for long, and used: after it has warmed up, no frame leaves anything behind on the heap.
 #include "blind.h"
 
-#include "inside.h"
+#include "questions.h"
 #include "timing/framelog.h"
 #include <malloc.h>
 

@@ -1,5 +1,6 @@
 /// Of the stage only what moves is drawn again: every frame of every scene is the picture that drawing all of it gives.
 #include "blind.h"
+#include "questions.h"
 
 #include "draw/draw.h"
 #include "temporary.h"
@@ -25,7 +26,7 @@ static void draw_whole(struct app *app)
     const struct draw_input input = {.width = WIDTH,
                                      .height = HEIGHT,
                                      .scale = 1,
-                                     .list = &app->work.editor->core.list,
+                                     .list = drawn_by(app->work.editor),
                                      .stage = editor_stage(app->work.editor)};
     draw_frame(app->draw, &input, &cost);
     draw_read(WIDTH, HEIGHT, whole);

@@ -14,7 +14,7 @@ static const struct knot *knot(const struct session *s, int spline, int k)
     return &s->document->splines[spline]->knots[k];
 }
 
-static int count(const struct session *s) { return selected_count(&s->editor->core); }
+static int count(const struct session *s) { return selected(s->editor); }
 
 /// A box from one place of the plot to another, by frames and values.
 static void box(struct session *s, const char *from, const char *to)
@@ -33,7 +33,7 @@ SESSION_TEST(test_all_of_one_and_of_all_that_are_shown, session_open(s, TWO))
     assert_int_equal(count(s), 7);
     session_key(s, 'A', MOD_CTRL); // fewer again
     assert_int_equal(count(s), 4);
-    selection_set(&s->editor->core.view.hidden, s->document->splines[2]->id, true);
+    selection_set(hidden_of(s->editor), s->document->splines[2]->id, true);
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
     assert_int_equal(count(s), 6);
 }
@@ -42,10 +42,10 @@ SESSION_TEST(test_a_box_takes_knots_of_all_curves, session_open(s, TWO))
 {
     box(s, "curve(sway,17,1.1)", "curve(sway,26,0.1)");
     assert_int_equal(count(s), 3);
-    assert_int_equal(s->editor->core.focus.active, 0);
+    assert_int_equal(active(s->editor), 0);
     box(s, "curve(sway,37,-0.3)", "curve(sway,45,-0.7)"); // the other curve alone: that one is worked on then
     assert_int_equal(count(s), 1);
-    assert_int_equal(s->editor->core.focus.active, 1);
+    assert_int_equal(active(s->editor), 1);
 }
 
 SESSION_TEST(test_shift_clicks_add_knots_of_another_curve, session_open(s, TWO))
@@ -57,15 +57,14 @@ SESSION_TEST(test_shift_clicks_add_knots_of_another_curve, session_open(s, TWO))
     session_click(s, "knot(up,1)");
     s->mods = 0;
     assert_int_equal(count(s), 1);
-    assert_int_equal(s->editor->core.focus.active, 0); // the one that has what is still selected
+    assert_int_equal(active(s->editor), 0); // the one that has what is still selected
 }
 
 SESSION_TEST(test_a_drag_moves_all_in_one_step, session_open(s, TWO))
 {
     const char *original = session_saved(s);
     box(s, "curve(sway,17,1.1)", "curve(sway,26,0.1)");
-    const float frame =
-        curves_x(s->editor->curves, &s->editor->core, 1) - curves_x(s->editor->curves, &s->editor->core, 0);
+    const float frame = x_of(s->editor, 1) - x_of(s->editor, 0);
     session_carry(s, "knot(up,0)", 5 * frame, -12, 4);
     assert_near(knot(s, 0, 1)->frame, 25, 0);
     assert_near(knot(s, 1, 0)->frame, 25, 0);
@@ -132,7 +131,7 @@ SESSION_TEST(test_pasted_knots_go_to_their_splines, session_open(s, TWO))
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
     session_key(s, 'C', MOD_CTRL);
     const char *original = session_saved(s);
-    char *text = strdup(s->editor->core.clipboard);
+    char *text = strdup(copied(s->editor));
     assert_non_null(strstr(text, "\"spline\": \"up\""));
     session_click(s, "ruler(21)");
     paste(s, text);
@@ -155,9 +154,9 @@ SESSION_TEST(test_pasted_knots_of_unknown_splines_go_to_the_active_one, session_
     assert_near(knot(s, 1, 2)->frame, 70, 0);
     session_click(s, "knot(sway,1)");
     session_key(s, 'C', MOD_CTRL);
-    assert_null(strstr(s->editor->core.clipboard, "spline"));
+    assert_null(strstr(copied(s->editor), "spline"));
     paste(s, "[{\"spline\": 3, \"frame\": 0, \"value\": 1}]");
-    assert_non_null(strstr(s->editor->core.message.text, "[0].spline: expected"));
+    assert_said(s->editor, "[0].spline: expected");
 }
 
 SESSION_TEST(test_copies_go_behind_the_end, session_open(s, TWO))
@@ -227,8 +226,8 @@ SESSION_TEST(test_two_factors_and_what_stops_them, session_open(s, TWO))
 /// The upper edge goes along with the pointer, the lower one stays; the factor is beside the pointer.
 SESSION_TEST(test_an_edge_of_the_box_scales_about_the_other_side, session_open(s, TWO))
 {
-    const float unit = (float)(s->editor->core.view.layout.plot.h /
-                               (s->editor->curves->view.value1 - s->editor->curves->view.value0));
+    const float unit =
+        (float)(layout_of(s->editor)->plot.h / (plot_of(s->editor)->value1 - plot_of(s->editor)->value0));
     box(s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)"); // 20 and 30 of sway, 20 of up, 22 of far
     const char *original = session_saved(s);
     session_pull(s, "box(0,-1)", 0, -unit / 2, 4);
@@ -248,8 +247,8 @@ TEST(test_an_edge_of_the_box_scales_about_the_equilibrium)
     for (int by_key = 0; by_key < 2; by_key++) {
         struct session s;
         session_open(&s, TWO);
-        const float unit = (float)(s.editor->core.view.layout.plot.h /
-                                   (s.editor->curves->view.value1 - s.editor->curves->view.value0));
+        const float unit =
+            (float)(layout_of(s.editor)->plot.h / (plot_of(s.editor)->value1 - plot_of(s.editor)->value0));
         session_key(&s, 'A', MOD_CTRL);
         s.mods = by_key ? 0 : MOD_ALT;
         session_pull(&s, "box(0,-1)", 0, -unit / 2, 4);
@@ -264,7 +263,7 @@ TEST(test_an_edge_of_the_box_scales_about_the_equilibrium)
 SESSION_TEST(test_a_corner_of_the_box_scales_both_and_says_what_stops_it, session_open(s, TWO))
 {
     const struct curves *curves = s->editor->curves;
-    const float frame = (float)(s->editor->core.view.layout.plot.w / (curves->view.frame1 - curves->view.frame0));
+    const float frame = (float)(layout_of(s->editor)->plot.w / (curves->view.frame1 - curves->view.frame0));
     box(s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)");
     const char *original = session_saved(s);
     session_pull(s, "box(1,-1)", 10 * frame, 0, 4);
@@ -290,13 +289,13 @@ SESSION_TEST(test_the_box_has_the_handles_that_can_scale, session_open(s, TWO))
     assert_false(editor_target(s->editor, "box(1,0)", &x, &y, &error));
     assert_false(editor_target(s->editor, "box(1,-1)", &x, &y, &error));
     session_hover(s, "knot(sway,1)");
-    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_knot);
+    assert_ptr_equal(hovered(s->editor), &thing_knot);
 }
 
 /// With Alt, from the playhead; a system that sends the comma all the same goes no further.
 SESSION_TEST(test_the_playhead_goes_to_the_next_knot, session_open(s, TWO))
 {
-    const struct playback *playback = &s->editor->core.view.playback;
+    const struct playback *playback = playback_of(s->editor);
     session_strike(s, '.', MOD_ALT, '.');
     assert_near(playback->position, 10, 0);
     session_key(s, '.', MOD_ALT);
@@ -304,11 +303,11 @@ SESSION_TEST(test_the_playhead_goes_to_the_next_knot, session_open(s, TWO))
     assert_near(playback->position, 30, 0);
     session_strike(s, ',', MOD_ALT, ',');
     assert_near(playback->position, 20, 0);
-    assert_true(selection_has(&s->editor->core.focus.selection, knot(s, 0, 1)->id));
+    assert_true(selection_has(selection_of(s->editor), knot(s, 0, 1)->id));
     session_key(s, KEY_HOME, MOD_ALT);
     session_key(s, KEY_HOME, MOD_ALT);
     assert_near(playback->position, 10, 0);
-    assert_non_null(strstr(s->editor->core.message.text, "No knot lies before"));
+    assert_said(s->editor, "No knot lies before");
     session_point(s, "knot(sway,3)");
     session_click_here(s, 1);
     session_click_here(s, 2);

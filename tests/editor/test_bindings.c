@@ -80,26 +80,26 @@ SESSION_TEST(test_a_factor_is_what_is_typed, session_open(s, scene))
 
 SESSION_TEST(test_punctuation_is_what_is_typed, session_open(s, scene))
 {
-    const struct playback *playback = &s->editor->core.view.playback;
+    const struct playback *playback = playback_of(s->editor);
     session_strike(s, '6', 0, '-'); // AZERTY
     assert_near(playback->speed, 0.5, 0);
     session_strike(s, '0', MOD_SHIFT, '='); // QWERTZ
     assert_near(playback->speed, 1, 0);
     session_strike(s, '8', 0, '[');         // with AltGr
     session_strike(s, ';', MOD_SHIFT, '.'); // AZERTY
-    assert_int_equal(selection_count(&s->editor->core.focus.selection, s->document->splines[0]), 1);
+    assert_int_equal(selection_count(selection_of(s->editor), s->document->splines[0]), 1);
     session_strike(s, '<', MOD_SHIFT, '>');
-    assert_int_equal(selection_count(&s->editor->core.focus.selection, s->document->splines[0]), 2);
+    assert_int_equal(selection_count(selection_of(s->editor), s->document->splines[0]), 2);
 }
 
 SESSION_TEST(test_a_part_is_played_without_brackets, session_open(s, scene))
 {
-    const struct playback *playback = &s->editor->core.view.playback;
-    playback_seek(&s->editor->core, 20);
+    const struct playback *playback = playback_of(s->editor);
+    seek(s->editor, 20);
     session_key(s, KEY_HOME, MOD_CTRL);
-    playback_seek(&s->editor->core, 50);
+    seek(s->editor, 50);
     session_key(s, KEY_END, MOD_CTRL);
-    assert_true(playback_is_part(&s->editor->core));
+    assert_true(plays_part(s->editor));
     assert_near(playback->range[0], 20, 0);
     assert_near(playback->range[1], 50, 0);
 }
@@ -112,7 +112,7 @@ SESSION_TEST(test_a_key_kept_down_is_one_press_where_it_should, session_open(s, 
         session_frame(s);
         session_hold(s, '6', ACTION_REPEAT);
     }
-    assert_near(s->editor->core.view.playback.speed, 0.5, 0);
+    assert_near(playback_of(s->editor)->speed, 0.5, 0);
 }
 
 TEST(test_a_key_kept_down_goes_on_through_the_splines)
@@ -126,7 +126,7 @@ TEST(test_a_key_kept_down_goes_on_through_the_splines)
         for (int i = 0; i < 3; i++) {
             session_hold(&s, cases[c].key, i ? ACTION_REPEAT : ACTION_PRESS);
             session_frame(&s);
-            assert_int_equal(s.editor->core.focus.active, cases[c].after[i]);
+            assert_int_equal(active(s.editor), cases[c].after[i]);
         }
         session_close(&s);
     }
@@ -135,7 +135,7 @@ TEST(test_a_key_kept_down_goes_on_through_the_splines)
 SESSION_TEST(test_a_key_that_opens_something_types_nothing, session_open(s, scene))
 {
     session_type(s, "a"); // the menu of what can be added
-    assert_int_equal(inspector_ui(s->editor->inspector)->popup.filter.typed[0], '\0');
+    assert_int_equal(inspector_of(s->editor)->popup.filter.typed[0], '\0');
     session_type(s, "tai");
     session_key(s, KEY_ENTER, 0);
     assert_int_equal(s->document->rigs[s->document->rig_count - 1]->kind, RIG_TAIL);

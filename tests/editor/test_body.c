@@ -11,7 +11,7 @@ static const char scene[] = "{\"frames\": [0, 48], \"splines\": ["
 
 enum { JOINTS = 24, X = 12, Y = 13, Z = 14 };
 
-static const float *joint(const struct session *s, int n) { return s->editor->stage->strands[0].pose.matrix[n]; }
+static const float *joint(const struct session *s, int n) { return posed(s->editor)->matrix[n]; }
 
 /// Takes hold of the body and moves the pointer along the screen; the button stays down.
 static void hold_and_drag(struct session *s, float dx, float dy, int steps)
@@ -219,7 +219,7 @@ SESSION_TEST(test_without_auto_key_the_shot_moves, session_open(s, scene))
     const struct spline *walk = s->document->splines[1];
     assert_int_equal(walk->knot_count, 2);
     for (int i = 0; i < 2; i++) assert_near(walk->knots[i].value, x, 1e-3);
-    assert_non_null(strstr(s->editor->core.message.text, "whole shot: x +"));
+    assert_said(s->editor, "whole shot: x +");
 }
 
 /// A limit of what the place follows: all knots stop where the first does, so that the motion stays what it was.
@@ -240,11 +240,11 @@ TEST(test_a_limit_holds_the_body)
         assert_near(joint(&s, 0)[X], 0.15, 1e-6); // under the hand, too
         session_release(&s, BUTTON_LEFT);
         for (int i = 0; i < 3; i++) assert_near(s.document->splines[1]->knots[i].value, i == 1 ? 0.25 : 0.15, 1e-12);
-        assert_string_equal(s.editor->core.message.text,
+        assert_string_equal(said(s.editor),
                             again
                                 ? "Held by the limit 0.25 of walk at frame 24."
                                 : "Moved for the whole shot: x +0.05 m. Held by the limit 0.25 of walk at frame 24.");
-        assert_false(s.editor->core.message.is_error);
+        assert_false(said_error(s.editor));
     }
     session_key(&s, 'A', MOD_SHIFT);
     hold_and_drag(&s, -150, 0, 4);
@@ -253,8 +253,7 @@ TEST(test_a_limit_holds_the_body)
     assert_near(joint(&s, 0)[X], 0.25, 1e-6);
     session_release(&s, BUTTON_LEFT);
     assert_near(s.document->splines[1]->knots[0].value, 0.25, 0);
-    assert_string_equal(s.editor->core.message.text,
-                        "Keyed walk at frame 0. Held by the limit 0.25 of walk at frame 0.");
+    assert_string_equal(said(s.editor), "Keyed walk at frame 0. Held by the limit 0.25 of walk at frame 0.");
     session_close(&s);
 }
 
@@ -280,7 +279,7 @@ SESSION_TEST(test_auto_key_makes_a_place_follow, session_open(s, scene))
     assert_int_equal(tail->channel_count, 2);
     assert_int_equal(s->document->splines[tail->channels[1].spline]->parameter[PARAMETER_EQUILIBRIUM].track, track);
     assert_int_equal(document_tail(s->document, 0)->position[2].track, -1);
-    assert_string_equal(s->editor->core.message.text, "Keyed tail x at frame 12.");
+    assert_string_equal(said(s->editor), "Keyed tail x at frame 12.");
     session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, before);
 }
@@ -300,7 +299,7 @@ SESSION_TEST(test_a_body_is_lifted, session_open(s, scene))
     s->mods = 0;
     session_release(s, BUTTON_LEFT);
     assert_near(joint(s, 0)[Y], y, 1e-3);
-    assert_near(s->editor->stage->strands[0].pose.ground, 0, 0);
+    assert_near(posed(s->editor)->ground, 0, 0);
 }
 
 /// A click, or a press beside the body, moves nothing.
@@ -332,9 +331,9 @@ SESSION_TEST(
     for (int i = 0; i < 30; i++) session_frame(s);
     session_point(s, "tail(tail,1)");
     strike(s, KEY_DELETE, MOD_SHIFT);
-    if (s->editor->dialogs->dialog.kind == DIALOG_ASK) strike(s, 'K', 0);
+    if (asked(s->editor) == DIALOG_ASK) strike(s, 'K', 0);
     assert_int_equal(s->document->rig_count, 1);
-    assert_true(s->editor->core.view.playback.playing);
+    assert_true(playback_of(s->editor)->playing);
     session_click_here(s, 1);
     assert_int_equal(s->document->rigs[0]->kind, RIG_MODEL);
 }

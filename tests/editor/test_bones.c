@@ -29,37 +29,29 @@ static void open_beast(struct session *session, const char *chains)
     "\"ear_L_2\", "                                                                                                  \
     "\"channels\": [{\"spline\": \"flick\", \"axis\": \"side\", \"lag\": 20, \"gain\": 8}]}"
 
-/// The name of the selected bone, "" for none.
-static const char *selected(const struct session *session)
-{
-    int model;
-    const int node = bones_selected(&session->editor->core, &model);
-    return node < 0 ? "" : bones_character(&session->editor->core, model)->gltf.nodes[node].name;
-}
-
 SESSION_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, open_beast(s, ""))
 {
     assert_false(session_shows(s, "neck"));
     session_hover(s, "bone(neck)");
-    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_bone);
+    assert_ptr_equal(hovered(s->editor), &thing_bone);
     assert_true(session_shows(s, "neck"));
-    assert_string_equal(selected(s), "");
+    assert_string_equal(selected_bone(s->editor), "");
     session_click(s, "bone(neck)");
-    assert_string_equal(selected(s), "neck");
+    assert_string_equal(selected_bone(s->editor), "neck");
     session_click(s, "bone(leg_FL_2)");
-    assert_string_equal(selected(s), "leg_FL_2");
+    assert_string_equal(selected_bone(s->editor), "leg_FL_2");
     session_key(s, KEY_ESCAPE, 0);
-    assert_string_equal(selected(s), "");
+    assert_string_equal(selected_bone(s->editor), "");
     session_click(s, "bone(neck)");
     session_click(s, "stage(0.02,0.95)");
-    assert_string_equal(selected(s), "");
+    assert_string_equal(selected_bone(s->editor), "");
 }
 
 /// A drag from a bone moves the character; it is no click.
 SESSION_TEST(test_a_drag_from_a_bone_selects_nothing, open_beast(s, ""))
 {
     session_carry(s, "bone(neck)", 40, 0, 4);
-    assert_string_equal(selected(s), "");
+    assert_string_equal(selected_bone(s->editor), "");
 }
 
 /// How far a bone is turned from its rest, as a chord.
@@ -91,7 +83,7 @@ SESSION_TEST(test_a_dragged_character_moves_and_its_chain_follows_through, open_
     assert_near(root[14], held[1], 1e-3);
     assert_true(hypot(moved->position[0], moved->position[2]) > 0.1);
     assert_near(moved->position[1], 0, 0);
-    assert_string_equal(selected(s), "");
+    assert_string_equal(selected_bone(s->editor), "");
     for (int frame = 0; frame < 1200; frame++) session_frame(s);
     assert_near(turned(s, "tail_8"), 0, 1e-6);
     assert_one_step(s, before);
@@ -134,7 +126,7 @@ SESSION_TEST(test_of_bones_over_each_other_the_near_one_is_picked, open_beast(s,
         session_move(s, (left[0] + right[0]) / 2, (left[1] + right[1]) / 2);
         session_frame(s);
         session_click_here(s, 1);
-        assert_string_equal(selected(s), view->eye[0] > 0 ? "leg_FL_1" : "leg_FR_1");
+        assert_string_equal(selected_bone(s->editor), view->eye[0] > 0 ? "leg_FL_1" : "leg_FR_1");
     }
     session_move(s, 2, 2);
 }
@@ -152,11 +144,11 @@ SESSION_TEST(test_a_key_makes_a_chain_to_the_tip_in_one_step, open_beast(s, ""))
     assert_string_equal(made->chain.from, "tail_3");
     assert_string_equal(made->chain.to, "tail_8");
     assert_true(made->chain.channel_count >= 1);
-    assert_int_equal(s->editor->core.focus.active, made->chain.channels[0].spline);
-    assert_int_equal(s->editor->inspector->rig, 1);
+    assert_int_equal(active(s->editor), made->chain.channels[0].spline);
+    assert_int_equal(shown_rig(s->editor), 1);
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
-    assert_string_equal(selected(s), "tail_3");
+    assert_string_equal(selected_bone(s->editor), "tail_3");
     panel_click(s, "bone.chain");
     assert_int_equal(s->document->rig_count, 2);
 }
@@ -165,11 +157,10 @@ SESSION_TEST(test_a_bone_that_branches_is_refused_with_a_sentence, open_beast(s,
 {
     const char *before = session_saved(s);
     session_click(s, "bone(head)");
-    assert_string_equal(selected(s), "head");
+    assert_string_equal(selected_bone(s->editor), "head");
     session_key(s, 'J', 0);
     assert_saved(s, before);
-    assert_true(s->editor->core.message.is_error);
-    assert_non_null(strstr(s->editor->core.message.text, "\"head\" branches into \"ear_L_1\" and \"ear_R_1\""));
+    assert_said_error(s->editor, "\"head\" branches into \"ear_L_1\" and \"ear_R_1\"");
 }
 
 /// The grabbed point follows the pointer, by a knot at the playhead; one step, and Esc takes it back.
@@ -213,7 +204,7 @@ SESSION_TEST(test_a_click_on_a_chain_selects_its_bone, open_beast(s, TAIL LEFT_E
 {
     const char *before = session_saved(s);
     session_click(s, "bone(tail_4)");
-    assert_string_equal(selected(s), "tail_4");
+    assert_string_equal(selected_bone(s->editor), "tail_4");
     assert_saved(s, before);
 }
 
@@ -344,7 +335,7 @@ SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR)
 {
     panel_enter(s, "chain.turn", "30");
     const char *before = session_saved(s);
-    assert_null(need_missing(&s->editor->core, NEEDS_TWIN));
+    assert_null(missing(s->editor, NEEDS_TWIN));
     panel_click(s, "chain.twin");
     assert_int_equal(s->document->rig_count, 3);
     const struct rig *twin = s->document->rigs[2];
@@ -355,7 +346,7 @@ SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR)
     assert_near(twin->chain.turn, -30, 0); // turned the other way round, as in a mirror
     assert_int_equal(twin->chain.channels[0].spline, s->document->rigs[1]->chain.channels[0].spline);
     assert_false(panel_shows(s, "chain.twin")); // there is one now
-    assert_non_null(need_missing(&s->editor->core, NEEDS_TWIN));
+    assert_non_null(missing(s->editor, NEEDS_TWIN));
     assert_one_step(s, before);
 }
 
@@ -363,19 +354,19 @@ SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR)
 SESSION_TEST(test_a_clicked_chain_leaves_its_feel_in_sight, open_beast(s, LEFT_EAR))
 {
     editor_resize(s->editor, 1280, 720, 1);
-    s->editor->core.view.more = false;
+    show_more(s->editor, false);
     session_frame(s);
     session_click(s, "bone(ear_L_2)");
     session_frame(s);
-    assert_string_equal(selected(s), "ear_L_2");
-    assert_near(s->editor->inspector->sections.offset, 0, 0);
+    assert_string_equal(selected_bone(s->editor), "ear_L_2");
+    assert_near(sections(s->editor)->offset, 0, 0);
 }
 
 SESSION_TEST(test_a_tail_has_no_twin, open_beast(s, TAIL))
 {
     assert_true(panel_shows(s, "rig.delete"));
     assert_false(panel_shows(s, "chain.twin"));
-    assert_non_null(need_missing(&s->editor->core, NEEDS_TWIN));
+    assert_non_null(missing(s->editor, NEEDS_TWIN));
 }
 
 TESTS_BETWEEN(folder_make, folder_remove)
@@ -383,7 +374,7 @@ TESTS_BETWEEN(folder_make, folder_remove)
 /// Its tail and ears are met at three quarters from behind, whichever way it faces; what has no tail and stands upright, from the front.
 SESSION_TEST(test_a_beast_is_met_from_behind, open_beast(s, ""))
 {
-    const float *eye = editor_stage(s->editor)->eye, *target = s->editor->stage->camera.target;
+    const float *eye = editor_stage(s->editor)->eye, *target = camera_of(s->editor)->target;
     assert_true(eye[2] < target[2] - 0.5f * (eye[0] - target[0]) && eye[0] > target[0]); // it faces +z
     struct imported beast;
     float back[2];

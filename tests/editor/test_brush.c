@@ -69,9 +69,9 @@ static void studio_open(struct studio *s)
              "\"spline\": \"s\"}]}]}",
              model());
     s->models = panel_open_models(&s->session, scene);
-    if (s->session.editor->core.view.playback.playing) session_key(&s->session, KEY_SPACE, 0);
+    if (playback_of(s->session.editor)->playing) session_key(&s->session, KEY_SPACE, 0);
     s->plain = models_figure(s->models, 0);
-    s->session.editor->stage->camera.azimuth = -1.5708f; // from the front
+    camera_of(s->session.editor)->azimuth = -1.5708f; // from the front
     frame(s);
 }
 
@@ -100,7 +100,7 @@ static const float *value_of(const struct studio *s, int coordinate, int vertex)
 STUDIO_TEST(a_stroke_changes_phase_where_it_is_and_nowhere_else)
 {
     session_key(&s->session, 'B', MOD_SHIFT);
-    s->session.editor->core.focus.brush.radius = 0.2; // 0.19 m: through the air it would reach the other finger
+    brush_of(s->session.editor)->radius = 0.2; // 0.19 m: through the air it would reach the other finger
     hold(s, left_finger, 0, 30);
     assert_non_null(rig_of(s)->painted);
     float most = 0;
@@ -151,7 +151,7 @@ STUDIO_TEST(undo_and_redo_are_exact)
     frames(s, 5);
     session_key(&s->session, KEY_ESCAPE, 0); // takes the stroke back, and the brush stays
     assert_memory_equal(rig_of(s)->painted->values, twice, size);
-    assert_true(s->session.editor->core.focus.brush.on);
+    assert_true(brush_of(s->session.editor)->on);
     assert_int_equal((int)history_count(s->session.history), 2);
     free(once);
     free(twice);
@@ -185,7 +185,7 @@ static double mean_lead(const struct studio *s)
 STUDIO_TEST(modes_and_modifiers_do_what_they_say)
 {
     panel_click(&s->session, "paint.on");
-    assert_true(s->session.editor->core.focus.brush.on);
+    assert_true(brush_of(s->session.editor)->on);
     hold(s, left_finger, MOD_CTRL, 10);
     assert_string_equal(history_undo_label(s->session.history), "Delay phase");
     const double delayed = mean_lead(s);
@@ -217,7 +217,7 @@ STUDIO_TEST(modes_and_modifiers_do_what_they_say)
 STUDIO_TEST(a_dab_fades_towards_its_rim)
 {
     session_key(&s->session, 'B', MOD_SHIFT);
-    s->session.editor->core.focus.brush.radius = 0.2;
+    brush_of(s->session.editor)->radius = 0.2;
     hold(s, left_finger, 0, 3);
     const struct reach *reach = &s->session.editor->stage->painting.work.reach;
     float most = 0, radius = 0;
@@ -310,7 +310,7 @@ STUDIO_TEST(smoothing_reduces_variation)
     double rough[2], even[2], calm[2];
     variation(s, rough);
     session_key(&s->session, 'B', MOD_SHIFT);
-    s->session.editor->core.focus.brush.radius = 0.25;
+    brush_of(s->session.editor)->radius = 0.25;
     hold(s, left_finger, MOD_SHIFT, 30); // advance, with Shift
     assert_string_equal(history_undo_label(s->session.history), "Smooth phase");
     variation(s, even);
@@ -327,7 +327,7 @@ STUDIO_TEST(smoothing_reduces_variation)
 STUDIO_TEST(esc_takes_back_the_brushs_radius_and_strength)
 {
     static const char *const names[] = {"radius", "strength"};
-    const struct brush *brush = &s->session.editor->core.focus.brush;
+    const struct brush *brush = brush_of(s->session.editor);
     session_key(&s->session, 'B', MOD_SHIFT);
     for (int i = 0; i < 2; i++) {
         const struct brush before = *brush;
@@ -343,7 +343,7 @@ STUDIO_TEST(esc_takes_back_the_brushs_radius_and_strength)
 
 STUDIO_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
 {
-    const struct editor *editor = s->session.editor;
+    struct editor *editor = s->session.editor;
     assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
     session_key(&s->session, 'B', MOD_SHIFT);
     frame(s);
@@ -352,25 +352,25 @@ STUDIO_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
     session_point(&s->session, left_finger);
     frame(s);
     assert_true(editor->stage->painting.covers);
-    const double radius = editor->core.focus.brush.radius, strength = editor->core.focus.brush.strength;
-    const float distance = editor->stage->camera.distance;
+    const double radius = brush_of(editor)->radius, strength = brush_of(editor)->strength;
+    const float distance = camera_of(editor)->distance;
     s->session.mods = MOD_CTRL;
     session_wheel(&s->session, 1);
     s->session.mods = MOD_SHIFT;
     session_wheel(&s->session, -1);
     s->session.mods = 0;
-    assert_true(editor->core.focus.brush.radius > radius && editor->core.focus.brush.strength < strength);
-    assert_near((double)editor->stage->camera.distance, (double)distance, 0);
-    const float azimuth = editor->stage->camera.azimuth;
+    assert_true(brush_of(editor)->radius > radius && brush_of(editor)->strength < strength);
+    assert_near((double)camera_of(editor)->distance, (double)distance, 0);
+    const float azimuth = camera_of(editor)->azimuth;
     session_point(&s->session, "stage(0.95,0.5)");
     session_press(&s->session, BUTTON_LEFT, 1);
     session_drag(&s->session, -40, 0, 4);
     session_release(&s->session, BUTTON_LEFT);
-    assert_true(editor->stage->camera.azimuth != azimuth);
+    assert_true(camera_of(editor)->azimuth != azimuth);
     assert_int_equal((int)history_count(s->session.history), 0);
     session_key(&s->session, KEY_ESCAPE, 0);
     frame(s);
-    assert_false(editor->core.focus.brush.on);
+    assert_false(brush_of(editor)->on);
     assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
 }
 

@@ -17,11 +17,11 @@ static void paste(struct session *s, const char *text)
 }
 
 /// The text of the session's clipboard, as the app would have put it there; for the caller to free.
-static char *copied(struct session *s, int key)
+static char *copy(struct session *s, int key)
 {
     session_key(s, key, MOD_CTRL);
     assert_int_equal(editor_take_request(s->editor).kind, REQUEST_COPY);
-    char *text = strdup(s->editor->core.clipboard);
+    char *text = strdup(copied(s->editor));
     assert_non_null(text);
     return text;
 }
@@ -124,7 +124,7 @@ SESSION_TEST(test_copy_and_paste_at_the_playhead, session_open(s, FIVE))
 {
     session_click(s, "knot(sway,1)");
     session_click_with(s, MOD_SHIFT, "knot(sway,2)");
-    char *text = copied(s, 'C');
+    char *text = copy(s, 'C');
     session_click(s, "ruler(70)");
     const char *original = session_saved(s);
     session_key(s, 'V', MOD_CTRL);
@@ -136,8 +136,8 @@ SESSION_TEST(test_copy_and_paste_at_the_playhead, session_open(s, FIVE))
     assert_near(sway(s)->knots[5].stiffness, 50, 0);
     assert_near(sway(s)->knots[6].frame, 79.5, 0);
     assert_near(sway(s)->knots[6].value, -1, 0);
-    assert_int_equal(selection_count(&s->editor->core.focus.selection, sway(s)), 2);
-    assert_true(selection_has(&s->editor->core.focus.selection, sway(s)->knots[5].id)); // what was pasted is selected
+    assert_int_equal(selection_count(selection_of(s->editor), sway(s)), 2);
+    assert_true(selection_has(selection_of(s->editor), sway(s)->knots[5].id)); // what was pasted is selected
     assert_one_step(s, original);
     free(text);
 }
@@ -146,7 +146,7 @@ SESSION_TEST(test_cut_is_one_step, session_open(s, FIVE))
 {
     session_key(s, 'A', MOD_CTRL);
     const char *original = session_saved(s);
-    char *text = copied(s, 'X');
+    char *text = copy(s, 'X');
     assert_int_equal(sway(s)->knot_count, 0);
     assert_string_equal(history_undo_label(s->history), "Cut knots");
     assert_one_step(s, original);
@@ -163,17 +163,17 @@ SESSION_TEST(test_a_paste_that_does_not_fit_changes_nothing, session_open(s, FIV
     session_click(s, "ruler(35)");
     const char *original = session_saved(s);
     paste(s, "0,1\n5,2\n");
-    assert_string_equal(s->editor->core.message.text, "sway: there is already a knot at frame 40");
+    assert_string_equal(said(s->editor), "sway: there is already a knot at frame 40");
     paste(s, "0,1\n1,2\n200,3\n");
-    assert_string_equal(s->editor->core.message.text, "sway: frame 235 is outside 0 to 96");
+    assert_string_equal(said(s->editor), "sway: frame 235 is outside 0 to 96");
     paste(s, "0,1\n0,2\n");
-    assert_string_equal(s->editor->core.message.text, "sway: there is already a knot at frame 35");
+    assert_string_equal(said(s->editor), "sway: there is already a knot at frame 35");
     paste(s, "nonsense");
-    assert_true(s->editor->core.message.is_error);
+    assert_true(said_error(s->editor));
     assert_null(history_undo_label(s->history));
     assert_saved(s, original);
     paste(s, " \n");
-    assert_string_equal(s->editor->core.message.text, "The clipboard has no text.");
+    assert_string_equal(said(s->editor), "The clipboard has no text.");
 }
 
 SESSION_TEST(test_copies_come_behind_and_pass_through, session_open(s, FIVE))
@@ -192,7 +192,7 @@ SESSION_TEST(test_copies_come_behind_and_pass_through, session_open(s, FIVE))
     session_key(s, 'D', MOD_CTRL); // 10 … 61, the copies from 62 on: the scene gets longer
     assert_int_equal(sway(s)->knot_count, 14);
     assert_int_equal(s->document->last_frame, 113);
-    assert_non_null(strstr(s->editor->core.message.text, "now ends on frame 113"));
+    assert_said(s->editor, "now ends on frame 113");
     assert_one_step(s, original);
     session_key(s, 'Z', MOD_CTRL);
     session_click(s, "knot(sway,5)");

@@ -21,7 +21,7 @@ static void open_crowd(struct session *s, int knots)
         at += (size_t)sprintf(scene + at, "%s{\"frame\": %d, \"value\": %d}", k ? "," : "", k, k * 7919 % 1009);
     strcpy(scene + at, "]}]}");
     panel_open(s, scene, 1280, 900);
-    core_activate(&s->editor->core, 1);
+    activate(s->editor, 1);
     free(scene);
 }
 
@@ -77,7 +77,7 @@ SESSION_TEST(a_drag_is_found, open_crowd(s, 300))
         session_drag(s, i < 20 ? 7 : -21, i % 2 ? 30 : -28, 1);
         assert_walked(s);
     }
-    assert_true(selected_count(&s->editor->core) == 1);
+    assert_true(selected(s->editor) == 1);
     session_release(s, BUTTON_LEFT);
     assert_walked(s);
     session_key(s, 'Z', MOD_CTRL);
@@ -88,10 +88,10 @@ SESSION_TEST(a_drag_is_found, open_crowd(s, 300))
 SESSION_TEST(a_crowd_is_drawn_as_columns, open_crowd(s, CROWD))
 {
     session_frame(s);
-    const int few = s->editor->core.list.point_count;
+    const int few = drawn_by(s->editor)->point_count;
     session_close(s);
     open_crowd(s, 3 * CROWD);
     session_frame(s);
-    const int many = s->editor->core.list.point_count;
+    const int many = drawn_by(s->editor)->point_count;
     assert_true(many < few + few / 4);
 }

@@ -21,7 +21,7 @@ TEST(of_crowded_knots_some_are_marked_and_each_is_hit)
     struct session s;
     open_crowded(&s, 2400, 1, values, 3);
     int diamonds = 0;
-    const struct drawlist *list = &s.editor->core.list;
+    const struct drawlist *list = drawn_by(s.editor);
     for (int i = 0; i < list->count; i++) diamonds += list->commands[i].kind == DRAW_CONVEX;
     assert_true(diamonds < 150);
     assert_true(diamonds > 50);
@@ -29,7 +29,7 @@ TEST(of_crowded_knots_some_are_marked_and_each_is_hit)
         char target[32];
         snprintf(target, sizeof target, "knot(sway,%d)", k);
         session_click(&s, target);
-        assert_int_equal(selection_single(&s.editor->core.focus.selection, spline(&s, 0)), k);
+        assert_int_equal(selection_single(selection_of(s.editor), spline(&s, 0)), k);
     }
     session_close(&s);
 }
@@ -41,11 +41,11 @@ TEST(swings_finer_than_a_column_are_a_band)
     static const int values[] = {-1, -1, 1, 1};
     struct session s;
     open_crowded(&s, 3200, 2, values, 4);
-    const struct rect plot = s.editor->core.view.layout.plot;
+    const struct rect plot = layout_of(s.editor)->plot;
     for (double frames = 6400; frames > 3200; frames *= 0.97) {
         s.editor->curves->view = (struct plotted){0, frames, -2, 2};
         session_frame(&s);
-        const struct drawlist *list = &s.editor->core.list;
+        const struct drawlist *list = drawn_by(s.editor);
         const struct draw_command *band = NULL;
         for (int i = 0; i < list->count; i++) {
             if (list->commands[i].kind == DRAW_BAND && list->commands[i].width > 2.4f) band = &list->commands[i];
@@ -62,7 +62,7 @@ TEST(swings_finer_than_a_column_are_a_band)
     }
     s.editor->curves->view = (struct plotted){0, 240, -2, 2};
     session_frame(&s);
-    const struct drawlist *list = &s.editor->core.list;
+    const struct drawlist *list = drawn_by(s.editor);
     for (int i = 0; i < list->count; i++) assert_int_not_equal(list->commands[i].kind, DRAW_BAND);
     session_close(&s);
 }

@@ -12,7 +12,7 @@ static void assert_selected(const struct session *s, const char *expected)
 {
     char text[64] = "";
     for (int k = 0; k < spline(s, 0)->knot_count; k++) {
-        text[k] = selection_has(&s->editor->core.focus.selection, spline(s, 0)->knots[k].id) ? '1' : '0';
+        text[k] = selection_has(selection_of(s->editor), spline(s, 0)->knots[k].id) ? '1' : '0';
     }
     assert_string_equal(text, expected);
 }
@@ -64,10 +64,10 @@ SESSION_TEST(test_escape_takes_a_box_back_and_a_click_clears, session_open(s, FI
 
 SESSION_TEST(test_a_knot_of_another_curve_makes_it_active, session_open(s, FIVE))
 {
-    assert_int_equal(s->editor->core.focus.active, 0);
+    assert_int_equal(active(s->editor), 0);
     session_point(s, "knot(up,1)");
     session_press(s, BUTTON_LEFT, 1);
-    assert_int_equal(s->editor->core.focus.active, 1);
+    assert_int_equal(active(s->editor), 1);
     session_drag(s, 0, -20, 4); // and the same press drags it
     session_release(s, BUTTON_LEFT);
     assert_true(spline(s, 1)->knots[1].value > 0.8);
@@ -141,8 +141,7 @@ SESSION_TEST(test_scaling_never_swallows_a_knot, session_open(s, FIVE))
 SESSION_TEST(test_a_ripple_moves_what_comes_after, session_open(s, FIVE))
 {
     const char *original = session_saved(s);
-    float frame = (float)(s->editor->core.view.layout.plot.w /
-                          (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
+    float frame = (float)(layout_of(s->editor)->plot.w / (plot_of(s->editor)->frame1 - plot_of(s->editor)->frame0));
     session_point(s, "knot(sway,2)");
     session_press(s, BUTTON_LEFT, 1);
     session_key(s, 'R', 0);
@@ -158,7 +157,7 @@ SESSION_TEST(test_a_ripple_moves_what_comes_after, session_open(s, FIVE))
     session_drag(s, 200 * frame, 0, 10);
     const double end[] = {10, 20, 66, 76, 96};
     assert_frames(s, end); // and at the end of the range
-    assert_non_null(strstr(s->editor->core.message.text, "end of the range"));
+    assert_said(s->editor, "end of the range");
     session_release(s, BUTTON_LEFT);
     assert_near(spline(s, 0)->knots[3].value, 0.5, 0);
     assert_one_step(s, original);
@@ -166,13 +165,12 @@ SESSION_TEST(test_a_ripple_moves_what_comes_after, session_open(s, FIVE))
 
 SESSION_TEST(test_ruler_units_and_snap, session_open(s, FIVE))
 {
-    session_move(s, s->editor->core.view.layout.ruler.x / 2, s->editor->core.view.layout.ruler.y + 8);
+    session_move(s, layout_of(s->editor)->ruler.x / 2, layout_of(s->editor)->ruler.y + 8);
     session_click_here(s, 1);
     assert_true(s->editor->core.view.curves.seconds);
     session_key(s, 'U', 0);
     assert_false(s->editor->core.view.curves.seconds);
-    float frame = (float)(s->editor->core.view.layout.plot.w /
-                          (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
+    float frame = (float)(layout_of(s->editor)->plot.w / (plot_of(s->editor)->frame1 - plot_of(s->editor)->frame0));
     session_key(s, 'G', 0); // off the frames
     session_pull(s, "knot(sway,0)", 2.25f * frame, 0, 3);
     assert_near(spline(s, 0)->knots[0].frame, 12.25, 1e-3);
@@ -198,7 +196,7 @@ SESSION_TEST(test_normalised_curves_keep_their_picture, session_open(s, FIVE))
     assert_near(high, own_high, 1.5);
     float before = line[count / 2][1];
     session_key(s, KEY_PAGE_DOWN, 0);
-    assert_int_equal(s->editor->core.focus.active, 1);
+    assert_int_equal(active(s->editor), 1);
     assert_near(s->editor->curves->cache.re[count / 2][1], before, 1.5); // nothing jumps
 }
 
@@ -215,7 +213,7 @@ SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
         session_click(s, target);
         session_click_here(s, 2);
         assert_int_equal(spline(s, 0)->knot_count, count + 1);
-        int k = selection_single(&s->editor->core.focus.selection, spline(s, 0));
+        int k = selection_single(selection_of(s->editor), spline(s, 0));
         assert_near(spline(s, 0)->knots[k].frame, frame, 0);
         assert_int_equal(spline(s, 0)->knots[k].has_phase, mods != 0);
         for (int i = 0; i < 97; i++) assert_near(s->work.evaluation.curves[0].total[i], before[i], 1e-6);
@@ -225,7 +223,7 @@ SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
     s->mods = MOD_CTRL; // off frames, which leaves the active spline as it is until the second click
     session_click(s, other);
     session_click_here(s, 2);
-    assert_int_equal(s->editor->core.focus.active, 1);
+    assert_int_equal(active(s->editor), 1);
     assert_int_equal(spline(s, 1)->knot_count, 3);
 }
 
@@ -249,7 +247,7 @@ static double change_by_a_knot(const char *settings, int frame, bool pose)
     const bool swings = spline_mode(spline(&s, 0)) == WIGGLY_COMPLEX;
     assert_true((at >= 0) == (swings || !pose)); // the others have no phase that a pose could hold
     assert_true(at < 0 || spline(&s, 0)->knots[at].has_phase == pose);
-    assert_true((strstr(s.editor->core.message.text, "Only a wiggly spline") != NULL) == (at < 0));
+    assert_true((strstr(said(s.editor), "Only a wiggly spline") != NULL) == (at < 0));
     for (int i = 0; i < 97; i++) most = fmax(most, fabs(s.work.evaluation.curves[0].total[i] - before[i]));
     session_close(&s);
     return most;
@@ -305,7 +303,7 @@ TEST(test_a_cubic_holds_its_last_value)
 SESSION_TEST(test_every_knot_is_drawn, session_open(s, FIVE))
 {
     session_frame(s);
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < spline(s, i)->knot_count; k++) {
             char target[32];
@@ -337,13 +335,13 @@ TEST(test_labels_never_overlap)
     snprintf(scene + at, sizeof scene - at, "]}");
     struct session s;
     panel_open(&s, scene, 640, 300);
-    const struct drawlist *list = &s.editor->core.list;
-    const struct rect plot = s.editor->core.view.layout.plot;
+    const struct drawlist *list = drawn_by(s.editor);
+    const struct rect plot = layout_of(s.editor)->plot;
     float last = plot.y - 20;
     int labels = 0;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
-        bool beside = c->kind == DRAW_TEXT && c->x > plot.x + plot.w && c->x < s.editor->core.view.layout.inspector.x;
+        bool beside = c->kind == DRAW_TEXT && c->x > plot.x + plot.w && c->x < layout_of(s.editor)->inspector.x;
         if (!beside || c->y < plot.y || c->y > plot.y + plot.h + 8) continue;
         assert_true(c->y - last > 13);
         last = c->y;
@@ -357,14 +355,14 @@ TEST(test_labels_never_overlap)
 /// Where the view is and where a knot is in it: 0 … 1 from the bottom up.
 static double height_of(const struct session *s, int i, int k)
 {
-    const struct plotted *view = &s->editor->curves->view;
+    const struct plotted *view = plot_of(s->editor);
     return (spline(s, i)->knots[k].value - view->value0) / (view->value1 - view->value0);
 }
 
 /// What is inserted, pasted or nudged out of sight comes into it in small steps, and the panel keeps still under a drag.
 SESSION_TEST(test_the_view_follows_edits_smoothly, session_open(s, FIVE))
 {
-    const struct plotted *view = &s->editor->curves->view;
+    const struct plotted *view = plot_of(s->editor);
     struct plotted before = *view;
     session_click(s, "ruler(80)");
     session_send(s, (struct event){.kind = EVENT_PASTE, .text = "0,6\n"});
@@ -398,7 +396,7 @@ SESSION_TEST(test_the_view_follows_edits_smoothly, session_open(s, FIVE))
 /// The whole of the spline's curve is in sight once the view has come to rest.
 static void assert_in_sight(struct session *s, int i)
 {
-    const struct plotted *view = &s->editor->curves->view;
+    const struct plotted *view = plot_of(s->editor);
     for (int frame = 0; frame < 90; frame++) session_frame(s);
     for (int sample = 0; sample < document_samples(s->document); sample++) {
         const double total = s->world.evaluation->curves[i].total[sample];
@@ -429,7 +427,7 @@ SESSION_TEST(test_the_view_follows_another_feel, panel_open(s, SWAY, 1280, 2400)
 /// What was copied behind the end is in sight, and so is all that was before.
 SESSION_TEST(test_the_view_follows_a_longer_scene, session_open(s, FIVE))
 {
-    const struct plotted *view = &s->editor->curves->view;
+    const struct plotted *view = plot_of(s->editor);
     const double left = view->frame0;
     session_key(s, 'A', MOD_CTRL);
     session_key(s, 'D', MOD_CTRL);
@@ -447,7 +445,7 @@ SESSION_TEST(
                     "{\"frame\": 2, \"value\": 0.58}]}]}"))
 {
     const struct curve_cache *cache = &s->editor->curves->cache;
-    const struct rect *plot = &s->editor->core.view.layout.plot;
+    const struct rect *plot = &layout_of(s->editor)->plot;
     session_key(s, KEY_HOME, 0);
     assert_true(cache->count > 100);
     for (int c = 0; c < cache->count; c++) {

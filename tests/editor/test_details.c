@@ -53,7 +53,7 @@ TEST(a_long_list_turns_by_wheel)
     assert_true(panel_shows(&s, "item.s1"));
     assert_false(panel_shows(&s, "item.s59"));
     float x, y;
-    assert_true(inspector_target(s.editor->inspector, "item.s3", &x, &y));
+    assert_true(widget_at(s.editor, "item.s3", &x, &y));
     session_move(&s, x, y);
     for (int i = 0; i < 20; i++) session_wheel(&s, -5);
     assert_true(panel_shows(&s, "item.s59"));
@@ -88,10 +88,10 @@ SESSION_TEST(a_rig_has_the_colour_of_its_first_spline, panel_open(s, tail, 1280,
 {
     float x, y;
     int found = 0;
-    inspector_unfold(s->editor->inspector, "section.rigs");
+    unfold(s->editor, "section.rigs");
     session_frame(s);
-    assert_true(inspector_target(s->editor->inspector, "tail.0", &x, &y));
-    const struct drawlist *list = &s->editor->core.list;
+    assert_true(widget_at(s->editor, "tail.0", &x, &y));
+    const struct drawlist *list = drawn_by(s->editor);
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
         found +=
@@ -103,10 +103,10 @@ SESSION_TEST(a_rig_has_the_colour_of_its_first_spline, panel_open(s, tail, 1280,
 /// Lines that are drawn within 10 pixels of a widget's middle.
 static int lines_at(struct session *s, const char *widget)
 {
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     float x, y;
     int count = 0;
-    assert_true(inspector_target(s->editor->inspector, widget, &x, &y));
+    assert_true(widget_at(s->editor, widget, &x, &y));
     for (int i = 0; i < list->count; i++) {
         const struct rect *b = &list->commands[i].bounds;
         const bool is_inside = b->x > x - 10 && b->x + b->w < x + 10 && b->y > y - 10 && b->y + b->h < y + 10;
@@ -124,7 +124,7 @@ SESSION_TEST(small_buttons_have_their_icons, panel_open(s, tail, 1280, 1400))
 /// The lines of equal damping say which they are; the lowest, at the edge, needs no number.
 SESSION_TEST(the_map_of_poles_has_its_numbers, panel_open(s, tail, 1280, 1400))
 {
-    inspector_unfold(s->editor->inspector, "section.poles");
+    unfold(s->editor, "section.poles");
     session_frame(s);
     assert_non_null(shown_text(s->editor, "ζ 0.2"));
     assert_null(shown_text(s->editor, "ζ 0"));
@@ -135,11 +135,11 @@ SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
 {
     const char *before = session_saved(s);
     session_hold(s, 'F', ACTION_PRESS);
-    dialogs_offer_recovery(s->editor->dialogs, &(struct recovery_offer){.name = "walk.json"}); // by no key
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    offer_recovery(s->editor, &(struct recovery_offer){.name = "walk.json"}); // by no key
+    assert_int_equal(asked(s->editor), DIALOG_RECOVER);
     session_hold(s, 'F', ACTION_RELEASE);
     session_key(s, KEY_ESCAPE, 0);
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    assert_int_equal(asked(s->editor), DIALOG_NONE);
     session_key(s, KEY_UP, 0);
     assert_saved(s, before);
 }
@@ -151,8 +151,7 @@ SESSION_TEST(
         1280, 720))
 {
     panel_click(s, "follow.frequency");
-    assert_true(s->editor->core.message.is_error);
-    assert_non_null(strstr(s->editor->core.message.text, "no other spline for alone to follow"));
+    assert_said_error(s->editor, "no other spline for alone to follow");
 }
 
 /// What a recording names and the scene does not have is said.
@@ -172,7 +171,7 @@ SESSION_TEST(a_target_from_the_pointer, session_open(s, tail))
 {
     float x, y;
     session_move(s, 300, 200);
-    const float height = s->editor->core.view.layout.stage.h;
+    const float height = layout_of(s->editor)->stage.h;
     assert_done(editor_target(s->editor, "pointer(0.1,-0.2)", &x, &y, &error));
     assert_near(x, 300 + 0.1f * height, 1e-3);
     assert_near(y, 200 - 0.2f * height, 1e-3);
@@ -183,7 +182,7 @@ SESSION_TEST(a_first_frame_asks_for_its_knots, panel_open(s, tail, 1280, 1600))
 {
     panel_click(s, "section.scene");
     panel_enter(s, "scene.first", "30");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
+    assert_int_equal(asked(s->editor), DIALOG_ASK);
     session_key(s, 'T', 0);
     assert_int_equal(s->document->first_frame, 30);
     assert_int_equal(s->document->splines[0]->knot_count, 1);
@@ -195,10 +194,10 @@ SESSION_TEST(presets_look_alike_and_plain, panel_open(s, tail, 1280, 1400))
 {
     static const char *const presets[] = {"preset.cat", "preset.whip", "preset.heavy", "preset.jelly",
                                           "preset.antenna"};
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         float x, y;
-        assert_true(inspector_target(s->editor->inspector, presets[p], &x, &y));
+        assert_true(widget_at(s->editor, presets[p], &x, &y));
         for (int i = 0; i < list->count; i++) {
             const struct draw_command *c = &list->commands[i];
             const bool covers = c->kind != DRAW_TEXT && c->bounds.w < 200 && rect_contains(c->bounds, x, y);

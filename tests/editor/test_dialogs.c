@@ -30,7 +30,7 @@ static int list_recent(void *user, struct dialog_recent *files, int most)
 static void open_session(struct session *session)
 {
     panel_open(session, scene, 960, 600);
-    dialogs_set_files(session->editor->dialogs, &(struct dialog_files){.list = list_names, .recent = list_recent});
+    list_files(session->editor, &(struct dialog_files){.list = list_names, .recent = list_recent});
 }
 
 static void expect_request(struct session *session, enum request_kind kind, const char *path)
@@ -54,16 +54,16 @@ static void click(struct session *session, const char *text, int clicks)
 SESSION_TEST(test_recent_files, open_session(s))
 {
     session_key(s, 'O', MOD_CTRL);
-    assert_int_equal(s->editor->dialogs->dialog.match_count, 5);
+    assert_int_equal(dialog_of(s->editor)->match_count, 5);
     assert_non_null(shown_text(s->editor, "/home/me/scenes"));
     assert_non_null(shown_text(s->editor, "no longer exists"));
     session_key(s, KEY_DOWN, 0);
     session_key(s, KEY_DOWN, 0);
     session_key(s, KEY_ENTER, 0);
     expect_request(s, REQUEST_NONE, "");
-    assert_non_null(strstr(s->editor->dialogs->dialog.error, "/home/me/gone.json no longer exists"));
+    assert_non_null(strstr(asked_error(s->editor), "/home/me/gone.json no longer exists"));
     panel_type(s, "x"); // another file: what was wrong with that one is off the screen
-    assert_string_equal(s->editor->dialogs->dialog.error, "");
+    assert_string_equal(asked_error(s->editor), "");
     session_key(s, KEY_BACKSPACE, 0);
     session_key(s, KEY_UP, 0);
     session_key(s, KEY_ENTER, 0);
@@ -75,7 +75,7 @@ SESSION_TEST(test_recent_files_are_filtered, open_session(s))
 {
     session_key(s, 'O', MOD_CTRL);
     panel_type(s, "AL"); // of walk.json
-    assert_int_equal(s->editor->dialogs->dialog.match_count, 1);
+    assert_int_equal(dialog_of(s->editor)->match_count, 1);
     session_key(s, KEY_ENTER, 0); // it does not begin so, hence it is not meant unless it is chosen
     expect_request(s, REQUEST_OPEN, "AL");
     panel_answer(s, REQUEST_OPEN, false, "AL: no such file");
@@ -86,12 +86,12 @@ SESSION_TEST(test_recent_files_are_filtered, open_session(s))
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, 'O', MOD_CTRL);
     panel_type(s, "t");
-    assert_int_equal(s->editor->dialogs->dialog.match_count, 1);
+    assert_int_equal(dialog_of(s->editor)->match_count, 1);
     session_key(s, KEY_TAB, 0);
-    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "two.json");
+    assert_string_equal(typed(s->editor), "two.json");
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, 'S', MOD_CTRL | MOD_SHIFT);
-    assert_int_equal(s->editor->dialogs->dialog.recent_count, 0);
+    assert_int_equal(dialog_of(s->editor)->recent_count, 0);
 }
 
 SESSION_TEST(test_mouse_in_the_list, open_session(s))
@@ -99,7 +99,7 @@ SESSION_TEST(test_mouse_in_the_list, open_session(s))
     session_key(s, 'O', MOD_CTRL);
     click(s, "two.json", 1); // a name is chosen first
     expect_request(s, REQUEST_NONE, "");
-    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "two.json");
+    assert_string_equal(typed(s->editor), "two.json");
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, 'O', MOD_CTRL);
     click(s, "two.json", 2);
@@ -116,9 +116,9 @@ SESSION_TEST(test_the_wheel_goes_through_the_list, open_session(s))
 {
     session_key(s, 'O', MOD_CTRL);
     session_wheel(s, -1);
-    assert_int_equal(s->editor->dialogs->dialog.choice, 2);
+    assert_int_equal(dialog_of(s->editor)->choice, 2);
     session_wheel(s, 1);
-    assert_int_equal(s->editor->dialogs->dialog.choice, 0);
+    assert_int_equal(dialog_of(s->editor)->choice, 0);
 }
 
 static const struct recovery_offer offer = {.name = "walk.json", .when = "21 November 2026, 10:00:00", .others = 1};
@@ -126,7 +126,7 @@ static const struct recovery_offer offer = {.name = "walk.json", .when = "21 Nov
 static void open_offer(struct session *session)
 {
     open_session(session);
-    dialogs_offer_recovery(session->editor->dialogs, &offer);
+    offer_recovery(session->editor, &offer);
     session_frame(session);
     assert_non_null(shown_text(session->editor, "Recover unsaved work on walk.json?"));
 }
@@ -139,35 +139,35 @@ SESSION_TEST(test_recover, open_offer(s))
     expect_request(s, REQUEST_RECOVER, "");
     panel_answer(s, REQUEST_RECOVER, false,
                  "recovery-1:3: expected a number"); // it is broken: the choice is open again
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    assert_int_equal(asked(s->editor), DIALOG_RECOVER);
     session_key(s, 'R', 0);
     expect_request(s, REQUEST_RECOVER, "");
-    core_message(&s->editor->core, true, "Unsaved work cannot be kept."); // no answer to it
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    tell(s->editor, true, "Unsaved work cannot be kept."); // no answer to it
+    assert_int_equal(asked(s->editor), DIALOG_RECOVER);
     panel_answer(s, REQUEST_SCREENSHOT, true, ""); // nor is this one
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    assert_int_equal(asked(s->editor), DIALOG_RECOVER);
     editor_open(s->editor, &s->world);
     panel_answer(s, REQUEST_RECOVER, true, "");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    assert_int_equal(asked(s->editor), DIALOG_NONE);
 }
 
 SESSION_TEST(test_discard_and_later, open_offer(s))
 {
     click(s, "Discard", 1);
     expect_request(s, REQUEST_FORGET, "");
-    dialogs_offer_recovery(s->editor->dialogs, &offer); // there is another one
+    offer_recovery(s->editor, &offer); // there is another one
     panel_answer(s, REQUEST_FORGET, true, "");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    assert_int_equal(asked(s->editor), DIALOG_RECOVER);
     session_key(s, KEY_ESCAPE, 0);
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    assert_int_equal(asked(s->editor), DIALOG_NONE);
     expect_request(s, REQUEST_NONE, "");
-    dialogs_offer_recovery(s->editor->dialogs, &offer);
+    offer_recovery(s->editor, &offer);
     session_frame(s);
     click(s, "Discard", 1);
     expect_request(s, REQUEST_FORGET, "");
     panel_answer(s, REQUEST_FORGET, true, ""); // that was the last one
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
-    dialogs_offer_recovery(s->editor->dialogs, &offer);
+    assert_int_equal(asked(s->editor), DIALOG_NONE);
+    offer_recovery(s->editor, &offer);
     session_send(s, (struct event){.kind = EVENT_CLOSE}); // closing the window decides it later
     expect_request(s, REQUEST_QUIT, "");
 }
@@ -176,34 +176,34 @@ SESSION_TEST(test_discard_and_later, open_offer(s))
 SESSION_TEST(test_welcome, open_session(s))
 {
     assert_null(shown_text(s->editor, "Got it"));
-    dialogs_welcome(s->editor->dialogs);
+    welcome(s->editor);
     session_frame(s);
     session_key(s, KEY_RIGHT, 0);
     assert_non_null(shown_text(s->editor, "Got it"));
     click(s, "Got it", 1);
-    assert_false(dialogs_is_welcoming(s->editor->dialogs));
-    dialogs_welcome(s->editor->dialogs);
+    assert_false(is_welcoming(s->editor));
+    welcome(s->editor);
     session_key(s, KEY_ESCAPE, 0);
-    assert_false(dialogs_is_welcoming(s->editor->dialogs));
-    dialogs_welcome(s->editor->dialogs);
+    assert_false(is_welcoming(s->editor));
+    welcome(s->editor);
     session_key(s, KEY_F1, 0);
-    assert_false(dialogs_is_welcoming(s->editor->dialogs));
+    assert_false(is_welcoming(s->editor));
     session_key(s, KEY_F1, 0);
-    dialogs_welcome(s->editor->dialogs);
+    welcome(s->editor);
     session_hold(s, KEY_F1, ACTION_PRESS); // and Esc within the same slow frame
     session_key(s, KEY_ESCAPE, 0);
-    assert_false(dialogs_is_welcoming(s->editor->dialogs));
-    dialogs_welcome(s->editor->dialogs);
+    assert_false(is_welcoming(s->editor));
+    welcome(s->editor);
     session_key(s, 'I', 0);
     assert_int_equal(s->document->splines[0]->knot_count, 3);
-    assert_false(dialogs_is_welcoming(s->editor->dialogs));
+    assert_false(is_welcoming(s->editor));
     assert_null(shown_text(s->editor, "Got it"));
 }
 
 /// What the card says suits the scene: before and after a character of one's own is dropped on the window.
 SESSION_TEST(test_welcome_with_a_character, open_session(s))
 {
-    dialogs_welcome(s->editor->dialogs);
+    welcome(s->editor);
     session_frame(s);
     assert_non_null(shown_text(s->editor, "Drop a .glb"));
     session_send(s, (struct event){.kind = EVENT_DROP, .path = "/home/ada/rex.glb"});
@@ -213,7 +213,7 @@ SESSION_TEST(test_welcome_with_a_character, open_session(s))
         s,
         "{\"frames\": [0, 24], \"splines\": [], \"rigs\": [{\"type\": \"model\", \"model\": \"/home/ada/rex.glb\"}]}",
         1280, 720);
-    dialogs_welcome(s->editor->dialogs);
+    welcome(s->editor);
     session_frame(s);
     assert_non_null(shown_text(s->editor, "Press Shift+J"));
     assert_null(shown_text(s->editor, "Drop a .glb"));
@@ -224,8 +224,8 @@ static void expect_advice(const char *json, const char *first, const char *statu
 {
     struct session s;
     panel_open(&s, json, 1280, 720);
-    s.editor->core.message.text[0] = 0; // that there is no such model
-    dialogs_welcome(s.editor->dialogs);
+    hush(s.editor); // that there is no such model
+    welcome(s.editor);
     session_frame(&s);
     assert_non_null(shown_text(s.editor, first));
     assert_non_null(shown_text(s.editor, status));

@@ -9,16 +9,15 @@ static const char scene[] = "{\"frames\": [0, 48], \"substeps\": 2, \"splines\":
                             "\"rigs\": [{\"type\": \"tail\", \"name\": \"fox\", \"spline\": \"sway\"},"
                             " {\"type\": \"tail\", \"name\": \"cat\", \"spline\": \"sway\"}]}";
 
-static struct dialog *dialog_of(struct session *s) { return &s->editor->dialogs->dialog; }
 static struct exporting *of(struct session *s) { return &s->editor->dialogs->exporting; }
 
 static void open_other(struct session *s, const char *text, const char *path, float width, float height)
 {
     panel_open(s, text, width, height);
-    dialogs_set_files(s->editor->dialogs, &(struct dialog_files){.format_count = exporting_format_count()});
-    core_set_path(&s->editor->core, path);
+    list_files(s->editor, &(struct dialog_files){.format_count = exporting_format_count()});
+    set_path(s->editor, path);
     session_key(s, 'E', MOD_CTRL);
-    assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
+    assert_int_equal(dialog_of(s->editor)->kind, DIALOG_EXPORT);
 }
 
 static void open_session(struct session *s, const char *path, float width, float height)
@@ -50,7 +49,7 @@ static void enter(struct session *s, const char *word, float right, const char *
     session_key(s, KEY_ENTER, 0);
 }
 
-static struct request asked(struct session *s)
+static struct request asked_for(struct session *s)
 {
     struct request request = editor_take_request(s->editor);
     assert_int_equal(request.kind, REQUEST_EXPORT);
@@ -61,7 +60,7 @@ SESSION_TEST(test_enter_exports_the_scene, open_session(s, "work/walk.json", 128
 {
     assert_non_null(shown_text(s->editor, "Write walk.glb"));
     session_key(s, KEY_ENTER, 0);
-    struct request request = asked(s);
+    struct request request = asked_for(s);
     assert_string_equal(request.path, "work/walk.glb");
     assert_false(request.wish.part);
     assert_int_equal(request.wish.keys, 0);
@@ -84,11 +83,11 @@ TEST(test_a_character_keeps_its_file)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct session s;
         panel_open(&s, with_dog, 1280, 720);
-        dialogs_set_files(s.editor->dialogs, &(struct dialog_files){.format_count = exporting_format_count()});
-        core_set_path(&s.editor->core, cases[i].path);
+        list_files(s.editor, &(struct dialog_files){.format_count = exporting_format_count()});
+        set_path(s.editor, cases[i].path);
         session_key(&s, 'E', MOD_CTRL);
         session_key(&s, KEY_ENTER, 0);
-        assert_string_equal(asked(&s).path, cases[i].expected);
+        assert_string_equal(asked_for(&s).path, cases[i].expected);
         session_close(&s);
     }
 }
@@ -113,7 +112,7 @@ SESSION_TEST(test_a_name_without_an_ending_gets_one, open_session(s, "", 1280, 7
 {
     panel_type(s, "v1.2");
     session_key(s, KEY_ENTER, 0);
-    assert_string_equal(asked(s).path, "v1.2.glb");
+    assert_string_equal(asked_for(s).path, "v1.2.glb");
 }
 
 SESSION_TEST(test_choices_are_asked_for, open_session(s, "walk.json", 1280, 720))
@@ -128,7 +127,7 @@ SESSION_TEST(test_choices_are_asked_for, open_session(s, "walk.json", 1280, 720)
     click(s, "all rigs");
     assert_non_null(shown_text(s->editor, "145 keys, 96 a second. ↑ ↓ choose the format, Tab goes to the choices."));
     click(s, "Write walk.glb");
-    struct request request = asked(s);
+    struct request request = asked_for(s);
     assert_true(request.wish.part && request.wish.first == 12 && request.wish.last == 48);
     assert_int_equal(request.wish.keys, 4);
     assert_string_equal(request.wish.clip, "Swing");
@@ -161,7 +160,7 @@ TEST(test_rigs_of_long_names_can_be_chosen)
     const float x = label->x + 4, y = label->y - 4;
     for (int i = 0; i < 2; i++) click_at(&s, x, y, 1);
     click(&s, "Write two.glb");
-    assert_int_equal(asked(&s).wish.rig, s.document->rigs[1]->id);
+    assert_int_equal(asked_for(&s).wish.rig, s.document->rigs[1]->id);
     session_close(&s);
 }
 
@@ -194,7 +193,7 @@ SESSION_TEST(test_size_of_pictures, open_session(s, "walk.json", 1280, 720))
     assert_non_null(shown_text(s->editor, "640"));
     enter(s, "size", 120, "320");
     click(s, "Write walk.gif");
-    struct request request = asked(s);
+    struct request request = asked_for(s);
     assert_int_equal(request.wish.width, 320);
     assert_int_equal(request.wish.height, 360);
 }
@@ -218,7 +217,7 @@ TEST(test_pictures_of_a_loop)
 SESSION_TEST(test_cancelling, open_session(s, "walk.json", 1280, 720))
 {
     session_key(s, KEY_ENTER, 0);
-    asked(s);
+    asked_for(s);
     dialogs_tell_export(s->editor->dialogs, 30, 97);
     session_frame(s);
     assert_non_null(shown_text(s->editor, "30 of 97. Esc cancels and leaves nothing behind."));
@@ -233,7 +232,7 @@ SESSION_TEST(test_cancelling, open_session(s, "walk.json", 1280, 720))
     session_frame(s);
     assert_non_null(shown_text(s->editor, "Cancelled. Nothing was written."));
     session_key(s, KEY_ESCAPE, 0);
-    assert_int_equal(dialog_of(s)->kind, DIALOG_NONE);
+    assert_int_equal(dialog_of(s->editor)->kind, DIALOG_NONE);
     assert_int_equal(editor_take_request(s->editor).kind, REQUEST_NONE);
 }
 
@@ -244,7 +243,7 @@ SESSION_TEST(test_escape_in_a_number, open_session(s, "walk.json", 1280, 720))
     click_at(s, word->x + 120, word->y - 4, 2);
     panel_type(s, "5");
     session_key(s, KEY_ESCAPE, 0);
-    assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
+    assert_int_equal(dialog_of(s->editor)->kind, DIALOG_EXPORT);
     assert_true(of(s)->memory.wish.first == 0);
 }
 
@@ -257,10 +256,10 @@ SESSION_TEST(test_remembered, open_session(s, "walk.json", 1280, 720))
     assert_non_null(shown_text(s->editor, "films/first.webm"));
     session_key(s, KEY_ESCAPE, 0);
     editor_open(s->editor, &s->world);
-    core_set_path(&s->editor->core, "work/run.json");
+    set_path(s->editor, "work/run.json");
     session_key(s, 'E', MOD_CTRL);
     assert_non_null(shown_text(s->editor, "work/run.webm")); // its own name, in the format of last time
-    for (int format = 0; format < s->editor->dialogs->dialog.files.format_count; format++) { // whichever that was
+    for (int format = 0; format < dialog_of(s->editor)->files.format_count; format++) { // whichever that was
         const char *ending = export_formats[format].ending;
         struct export_memory memory = {.path = "films/first"};
         strncat(memory.path, ending, 16);

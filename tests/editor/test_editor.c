@@ -154,11 +154,11 @@ SESSION_TEST(test_an_edit_ends_the_message_of_an_undo, session_open(s, SWAY))
     for (int edit = 0; edit < 3; edit++) {
         session_carry(s, "knot(sway,2)", 0, -20, 3);
         session_key(s, 'Z', MOD_CTRL);
-        assert_string_equal(s->editor->core.message.text, "Undone: Move knot");
+        assert_string_equal(said(s->editor), "Undone: Move knot");
         if (edit == 0) session_carry(s, "knot(sway,1)", 0, 30, 3);
         if (edit == 1) session_key(s, KEY_UP, MOD_ALT);
         if (edit == 2) session_carry(s, "slider(frequency)", 9, 0, 3);
-        assert_string_equal(s->editor->core.message.text, "");
+        assert_string_equal(said(s->editor), "");
     }
 }
 
@@ -319,7 +319,7 @@ static void monkey(struct session *s)
         break;
     case 5:
         event.kind = below(4) ? EVENT_WHEEL : below(2) ? EVENT_TEXT : EVENT_PASTE;
-        event.text = below(2) ? s->editor->core.clipboard : "0,0.5\n2,-1,3\n7,1e9\n";
+        event.text = below(2) ? copied(s->editor) : "0,0.5\n2,-1,3\n7,1e9\n";
         event.dy = (float)below(9) - 4;
         event.codepoint = (uint32_t) "0123456789-+.,<>[]"[below(18)];
         break;

@@ -1,5 +1,4 @@
 /// What the editor shows, frame by frame: playback, views, the tail that is pulled, and what it costs. Without GL.
-#include "inside.h"
 #include "session.h"
 
 #include "timing/framelog.h"
@@ -40,8 +39,7 @@ static void pull(struct session *s, float share, float dx, float dy)
 static int selected_from(const struct session *s, unsigned id)
 {
     int count = 0;
-    for (; id < s->editor->core.focus.selection.capacity; id++)
-        count += selection_has(&s->editor->core.focus.selection, id);
+    for (; id < s->editor->core.focus.selection.capacity; id++) count += selection_has(selection_of(s->editor), id);
     return count;
 }
 
@@ -147,7 +145,7 @@ SESSION_TEST(test_playing_redraws_the_playhead_only, session_open(s, TAIL))
 {
     session_key(s, KEY_SPACE, 0);
     for (int i = 0; i < 400; i++) session_frame(s); // messages are gone by then
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     int count = list->count;
     uint64_t *before = malloc((size_t)count * sizeof *before);
     for (int i = 0; i < count; i++) before[i] = list->commands[i].hash;
@@ -168,7 +166,7 @@ SESSION_TEST(test_playing_redraws_the_playhead_only, session_open(s, TAIL))
 SESSION_TEST(test_nothing_changes_while_nothing_happens, session_open(s, TAIL))
 {
     for (int i = 0; i < 400; i++) session_frame(s);
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     uint64_t first = list->commands[0].hash, sum = 0, again = 0;
     for (int i = 0; i < list->count; i++) sum += list->commands[i].hash * (uint64_t)(i + 1);
     uint64_t stage = editor_stage(s->editor)->hash;
@@ -177,8 +175,8 @@ SESSION_TEST(test_nothing_changes_while_nothing_happens, session_open(s, TAIL))
     assert_true(first == list->commands[0].hash && sum == again);
     assert_true(stage == editor_stage(s->editor)->hash);
     assert_false(editor_wants_frames(s->editor));
-    core_message(&s->editor->core, true,
-                 "The disk is full."); // said between two frames, and to be seen in the next one
+    tell(s->editor, true,
+         "The disk is full."); // said between two frames, and to be seen in the next one
     assert_true(editor_wants_frames(s->editor));
     session_frame(s);
     assert_false(editor_wants_frames(s->editor));
@@ -202,7 +200,7 @@ SESSION_TEST(test_steady_frames_allocate_nothing, session_open(s, TAIL))
 /// Vertices of the active curve (the widest line, or band) in the list.
 static const float *active_line(const struct session *s, int *count)
 {
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *command = &list->commands[i];
         if ((command->kind != DRAW_LINE && command->kind != DRAW_BAND) || command->width < 2.4f) continue;
@@ -253,7 +251,7 @@ SESSION_TEST(test_playing_and_scrubbing, session_open(s, TAIL))
 {
     const struct stage_view *stage = editor_stage(s->editor);
     session_click(s, "ruler(30)");
-    assert_false(s->editor->core.view.playback.playing);
+    assert_false(playback_of(s->editor)->playing);
     uint64_t at_30 = stage->hash;
     session_key(s, KEY_RIGHT, 0);
     assert_true(stage->hash != at_30);
@@ -266,7 +264,7 @@ SESSION_TEST(test_playing_and_scrubbing, session_open(s, TAIL))
     session_click(s, "ruler(30)");
     session_key(s, KEY_SPACE, 0);
     for (int i = 0; i < 299; i++) session_frame(s);
-    assert_true(s->editor->core.view.playback.playing);
+    assert_true(playback_of(s->editor)->playing);
     session_key(s, KEY_SPACE, 0); // 300 frames of 1/60 s are the whole loop of 5 s
     session_click(s, "ruler(30)");
     assert_true(stage->hash == at_30);
@@ -281,7 +279,7 @@ SESSION_TEST(test_space_and_drag_pans_without_playing, session_open(s, TAIL))
     session_drag(s, 35, -12, 4);
     session_release(s, BUTTON_LEFT);
     session_hold(s, KEY_SPACE, ACTION_RELEASE);
-    assert_false(s->editor->core.view.playback.playing);
+    assert_false(playback_of(s->editor)->playing);
     session_point(s, "curve(sway,60,0)");
     assert_near(s->x, x + 35, 0.1);
     assert_near(s->y, y - 12, 0.1);
@@ -324,7 +322,7 @@ SESSION_TEST(test_the_stage_turns_only_by_hand, session_open(s, TAIL))
 /// Whether a text stands in the curves panel.
 static bool shows_text(const struct session *s, const char *text)
 {
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *command = &list->commands[i];
         bool inside = command->x < 1000 && command->y > 400 && command->y < 696;
@@ -383,7 +381,7 @@ SESSION_TEST(test_small_windows, session_open(s, TAIL))
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         editor_resize(s->editor, sizes[i][0], sizes[i][1], 1);
         session_frame(s);
-        const struct drawlist *list = &s->editor->core.list;
+        const struct drawlist *list = drawn_by(s->editor);
         assert_false(list->overflow);
         for (int p = 0; p < 2 * list->point_count; p++) assert_true(isfinite(list->points[p]));
     }

@@ -35,7 +35,7 @@ static double farthest(const struct session *s, int spline, double *knot)
 static void drag_far(struct session *s)
 {
     s->mods = MOD_ALT;
-    s->editor->core.view.playback.position = 84;
+    playback_of(s->editor)->position = 84;
     session_frame(s);
     session_pull(s, "tail(tail,0.3)", 0, -300, 12);
     for (int i = 0; i < 60; i++) session_frame(s);
@@ -48,15 +48,15 @@ static const char whole[] = "tests/replays/session.json";
 SESSION_TEST(test_a_drag_on_the_stage_says_that_the_curve_swings_far, session_open_file(s, whole))
 {
     double knot;
-    assert_int_equal(s->editor->curves->warnings.count, 0);
+    assert_int_equal(warnings_of(s->editor)->count, 0);
     drag_far(s);
-    assert_non_null(s->editor->core.input.drag.owner);
+    assert_true(is_dragging(s->editor));
     assert_true(farthest(s, 0, &knot) > 2.5 * knot && farthest(s, 1, &knot) > 4);
-    assert_int_equal(s->editor->curves->warnings.count,
+    assert_int_equal(warnings_of(s->editor)->count,
                      2); // the active curve, and the other one that the tail follows
     for (int i = 0; i < 2; i++) {
-        assert_int_equal(s->editor->curves->warnings.list[i].kind, WARNING_FAR);
-        assert_int_equal(s->editor->curves->warnings.list[i].spline, i);
+        assert_int_equal(warnings_of(s->editor)->list[i].kind, WARNING_FAR);
+        assert_int_equal(warnings_of(s->editor)->list[i].spline, i);
     }
 }
 
@@ -65,9 +65,9 @@ SESSION_TEST(test_the_start_scene_bears_the_same_drag, session_open_file(s, "ass
 {
     double knot;
     drag_far(s);
-    assert_non_null(s->editor->core.input.drag.owner);
+    assert_true(is_dragging(s->editor));
     for (int i = 0; i < 2; i++) assert_true(farthest(s, i, &knot) < 2 * knot);
-    assert_int_equal(s->editor->curves->warnings.count, 0);
+    assert_int_equal(warnings_of(s->editor)->count, 0);
 }
 
 /// One click leaves what swings least, as one step.
@@ -79,7 +79,7 @@ SESSION_TEST(test_one_click_holds_what_swings_far, session_open_file(s, whole))
     const char *dragged = session_saved(s);
     session_hover(s, "warning(0)");
     session_frame(s);
-    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_warning);
+    assert_ptr_equal(hovered(s->editor), &thing_warning);
     assert_string_equal(s->editor->curves->fixes[0].text, "set limits from -1.3 to 1.3");
     session_click(s, "warning(0)");
     session_frame(s);

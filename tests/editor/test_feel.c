@@ -10,7 +10,7 @@ static const char tail_scene[] =
 
 static const struct param *of(const struct session *s, enum parameter which)
 {
-    return &s->document->splines[s->editor->core.focus.active]->parameter[which];
+    return &s->document->splines[active(s->editor)]->parameter[which];
 }
 
 SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
@@ -55,7 +55,7 @@ static void drag_damping(struct session *s)
 static void type_wind_up(struct session *s) { panel_enter(s, "wind-up", "11"); }
 static void type_settle(struct session *s)
 {
-    s->editor->core.view.more = true;
+    show_more(s->editor, true);
     session_frame(s);
     panel_enter(s, "settle", "1.2");
 }
@@ -73,7 +73,7 @@ static void with_alt(struct session *s)
 }
 static void after_the_curve(struct session *s)
 {
-    const wiggly_value here = evaluation_at(s->editor->core.evaluation, 0, 20);
+    const wiggly_value here = evaluation_at(solved(s->editor), 0, 20);
     char curve[64];
     snprintf(curve, sizeof curve, "curve(bend,20,%g)", here.y + here.re);
     session_click(s, curve);
@@ -115,7 +115,7 @@ SESSION_TEST(test_a_weight_is_the_limbs, panel_open(s, limb_scene, 1280, 900))
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         session_close(s);
         panel_open(s, limb_scene, 1280, 900);
-        s->editor->core.view.more = false;
+        show_more(s->editor, false);
         const char *before = session_saved(s);
         cases[i].change(s);
         for (int k = 0; k < 5; k++) {
@@ -198,7 +198,7 @@ SESSION_TEST(test_calm_shows_where_it_acts, panel_open(s, tail_scene, 1280, 1700
     session_key(s, KEY_DOWN, 0);
     session_hold(s, 'C', ACTION_RELEASE);
     assert_near(of(s, PARAMETER_CALM)->value, 1, 0);
-    assert_non_null(strstr(s->editor->core.message.text, "whole curves"));
+    assert_said(s->editor, "whole curves");
     panel_click(s, "start.loop");
     assert_true(panel_shows(s, "calm"));
 }
@@ -213,8 +213,7 @@ SESSION_TEST(test_the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 900
     assert_near(of(s, PARAMETER_DAMPING)->value, ln20 / (tau * 2), 1e-4);
     assert_one_step(s, before);
     panel_enter(s, "settle", "0.01"); // sooner than critical damping
-    assert_true(s->editor->core.message.is_error);
-    assert_non_null(strstr(s->editor->core.message.text, "settles in: expected 0.48"));
+    assert_said_error(s->editor, "settles in: expected 0.48");
     session_key(s, KEY_ESCAPE, 0);
     panel_pull(s, "settle", 20, 0, 4); // a second later
     assert_near(of(s, PARAMETER_DAMPING)->value, ln20 / (tau * 3), 2e-3);
@@ -238,7 +237,7 @@ SESSION_TEST(test_the_wind_up_is_set_in_frames, panel_open(s, tail_scene, 1280, 
         assert_one_step(s, before);
     }
     panel_enter(s, "wind-up", "0");
-    assert_true(s->editor->core.message.is_error);
+    assert_true(said_error(s->editor));
     session_key(s, KEY_ESCAPE, 0);
     panel_click(s, "mode.real");
     assert_false(panel_shows(s, "wind-up"));
@@ -249,7 +248,7 @@ SESSION_TEST(test_the_wind_up_is_set_in_frames, panel_open(s, tail_scene, 1280, 
 static float place_of(struct session *s, const char *name)
 {
     float x, y;
-    assert_true(inspector_target(s->editor->inspector, name, &x, &y));
+    assert_true(widget_at(s->editor, name, &x, &y));
     return y;
 }
 
@@ -273,11 +272,11 @@ static void wait(struct session *s, int frames)
 SESSION_TEST(test_a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 600))
 {
     static const char *const names[] = {"frequency", "preset.cat", "look.cubic"};
-    const struct rect window = s->editor->core.view.layout.window;
-    const struct tooltip *tooltip = &s->editor->tooltip;
+    const struct rect window = layout_of(s->editor)->window;
+    const struct tooltip *tooltip = tooltip_of(s->editor);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         float x, y;
-        assert_true(inspector_target(s->editor->inspector, names[i], &x, &y));
+        assert_true(widget_at(s->editor, names[i], &x, &y));
         session_move(s, x, y);
         session_frame(s);
         assert_false(tooltip_is_shown(tooltip));
@@ -314,7 +313,7 @@ SESSION_TEST(test_controls_below_have_tooltips, panel_open(s, tail_scene, 960, 6
         snprintf(target, sizeof target, "widget(%s)", controls[i]);
         session_hover(s, target);
         wait(s, 40);
-        assert_true(tooltip_is_shown(&s->editor->tooltip));
+        assert_true(tooltip_is_shown(tooltip_of(s->editor)));
     }
 }
 
@@ -342,7 +341,7 @@ static void assert_whole(const struct tooltip *tooltip, struct rect window)
 /// Points at each control that Tab could reach, in every section.
 static void assert_all_explained(struct session *s)
 {
-    struct ui *ui = &s->editor->inspector->ui;
+    struct ui *ui = inspector_of(s->editor);
     panel_unfold(s);
     struct ui_stop stops[UI_MAX_FOCUS];
     const int count = ui->stop_count;
@@ -352,11 +351,11 @@ static void assert_all_explained(struct session *s)
         const struct rect *r = &stops[i].rect;
         session_move(s, r->x + r->w / 2, r->y + r->h / 2);
         session_frame(s);
-        const char *hint = inspector_ui(s->editor->inspector)->hint;
+        const char *hint = inspector_of(s->editor)->hint;
         if (!hint)
             fail_msg("the control at %g, %g, %g × %g has no tooltip", (double)r->x, (double)r->y, (double)r->w,
                      (double)r->h);
-        assert_whole(&(struct tooltip){.text = hint, .at = *r, .rest = 1}, s->editor->core.view.layout.window);
+        assert_whole(&(struct tooltip){.text = hint, .at = *r, .rest = 1}, layout_of(s->editor)->window);
     }
 }
 

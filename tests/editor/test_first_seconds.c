@@ -27,9 +27,9 @@ static void late_press(const char *target, const char *x, const char *taken)
     open_swinging(&s, x);
     session_point(&s, target);
     for (int i = 0; i < 15; i++) session_frame(&s);
-    assert_null(s.editor->core.input.hover.thing);
+    assert_null(hovered(s.editor));
     session_press(&s, BUTTON_LEFT, 1);
-    assert_string_equal(s.editor->core.input.drag.label, taken);
+    assert_string_equal(dragged(s.editor), taken);
     session_release(&s, BUTTON_LEFT);
     session_close(&s);
 }
@@ -45,7 +45,7 @@ SESSION_TEST(test_nothing_is_caught_at_rest, open_swinging(s, "0"))
     for (int i = 0; i < 15; i++) session_frame(s);
     session_key(s, KEY_SPACE, 0);
     session_press(s, BUTTON_LEFT, 1);
-    assert_null(s->editor->core.input.drag.label); // the camera turns
+    assert_null(dragged(s->editor)); // the camera turns
     session_release(s, BUTTON_LEFT);
 }
 
@@ -58,15 +58,15 @@ static float highest(struct session *s)
         const float *base = stage->strands[t].pose.matrix[0] + 12;
         const float ears[3] = {base[0], base[1] + 0.8f, base[2] - 0.4f};
         float xy[2];
-        assert_true(stage_project_point(s->editor->stage, s->editor->core.view.layout.stage, ears, xy));
+        assert_true(stage_project_point(s->editor->stage, layout_of(s->editor)->stage, ears, xy));
         y = fminf(y, xy[1]);
         for (int n = 0; n < stage->strands[t].pose.count; n++) {
-            stage_project_point(s->editor->stage, s->editor->core.view.layout.stage,
-                                stage->strands[t].pose.matrix[n] + 12, xy);
+            stage_project_point(s->editor->stage, layout_of(s->editor)->stage, stage->strands[t].pose.matrix[n] + 12,
+                                xy);
             y = fminf(y, xy[1]);
         }
     }
-    return y - s->editor->core.view.layout.stage.y;
+    return y - layout_of(s->editor)->stage.y;
 }
 
 TEST(test_figures_play_below_their_captions)
@@ -81,8 +81,8 @@ TEST(test_figures_play_below_their_captions)
         session_open(&s, text);
         editor_open(s.editor, &s.world);
         session_frame(&s);
-        assert_true(s.editor->core.view.playback.playing);
-        const float caption = caption_height(s.editor->core.view.layout.stage, s.document);
+        assert_true(playback_of(s.editor)->playing);
+        const float caption = caption_height(layout_of(s.editor)->stage, s.document);
         assert_true(caption > 30);
         for (int i = 0; i < 120; i++) {
             session_frame(&s);
@@ -104,8 +104,8 @@ SESSION_TEST(
         "{\"type\": \"tail\", \"name\": \"new\", \"position\": [2, 0, 0], \"channels\": [{\"spline\": \"b\"}]}]}"))
 {
     session_frame(s);
-    const struct rect stage = s->editor->core.view.layout.stage;
-    const struct drawlist *list = &s->editor->core.list;
+    const struct rect stage = layout_of(s->editor)->stage;
+    const struct drawlist *list = drawn_by(s->editor);
     float x[2] = {0};
     for (int i = 1; i < list->count; i++) {
         const struct draw_command *command = &list->commands[i];

@@ -5,7 +5,7 @@
 static void open_first(struct session *s)
 {
     session_open_file(s, "assets/scenes/tail.json");
-    s->editor->core.view.more = false;
+    show_more(s->editor, false);
     session_frame(s);
 }
 
@@ -13,7 +13,7 @@ static void open_first(struct session *s)
 static int count_controls(const struct session *s)
 {
     static const char *const headers[] = {"section.feel", "section.knot", "section.splines"};
-    const struct ui *ui = inspector_ui(s->editor->inspector);
+    const struct ui *ui = inspector_of(s->editor);
     int count = ui->stop_count;
     for (int i = 0; i < ui->stop_count; i++) {
         for (size_t h = 0; h < sizeof headers / sizeof headers[0]; h++)
@@ -44,7 +44,7 @@ SESSION_TEST(test_more_opens_the_rest_and_closes_it, open_first(s))
     session_key(s, KEY_F9, 0);
     assert_false(panel_shows(s, "follow.frequency"));
     session_key(s, KEY_F9, 0);
-    s->editor->inspector->sections.offset = 1e6f;
+    sections(s->editor)->offset = 1e6f;
     session_frame(s);
     assert_true(panel_shows(s, "section.history"));
 }
@@ -69,7 +69,7 @@ TEST(test_an_empty_scene_is_not_an_empty_inspector)
 {
     struct session s;
     session_open(&s, "{\"wiggly\": 1, \"frames\": [0, 96]}");
-    s.editor->core.view.more = false;
+    show_more(s.editor, false);
     assert_true(panel_shows(&s, "rig.add") && panel_shows(&s, "splines.add"));
     session_close(&s);
 }
@@ -78,7 +78,7 @@ TEST(test_an_empty_scene_is_not_an_empty_inspector)
 static float height_of(struct session *s, const char *name)
 {
     float x, y;
-    if (!inspector_target(s->editor->inspector, name, &x, &y)) fail_msg("the inspector does not show %s", name);
+    if (!widget_at(s->editor, name, &x, &y)) fail_msg("the inspector does not show %s", name);
     return y;
 }
 
@@ -101,7 +101,7 @@ SESSION_TEST(test_rows_stay_where_they_are, panel_open(s, mixed, 1280, 2000))
     for (int more = 0; more < 2; more++) {
         float before[5];
         const int count = more ? 5 : 3;
-        s->editor->core.view.more = more;
+        show_more(s->editor, more);
         session_frame(s);
         for (int r = 0; r < count; r++) before[r] = height_of(s, rows[r]);
         for (int i = 0; i < 5; i++) {
@@ -122,11 +122,11 @@ SESSION_TEST(test_a_clicked_tail_is_shown, open_first(s))
     for (int i = 0; i < 2; i++) session_key(s, KEY_PAGE_DOWN, 0); // the breath
     assert_false(panel_shows(s, "section.tail"));
     session_click(s, "tail(tail,0.8)");
-    assert_string_equal(core_active_spline(&s->editor->core)->name, "sway");
+    assert_string_equal(active_spline(s->editor)->name, "sway");
     assert_true(panel_shows(s, "section.tail"));
     session_key(s, KEY_PAGE_DOWN, 0);
     session_click(s, "tail(tail,0.8)"); // bent by this spline, too
-    assert_string_equal(core_active_spline(&s->editor->core)->name, "up");
+    assert_string_equal(active_spline(s->editor)->name, "up");
     assert_int_equal(history_done(s->history), done);
 }
 
@@ -142,14 +142,14 @@ static float drawn_at(const struct session *s, const char *words)
 SESSION_TEST(test_the_first_frame_is_right, panel_open(s, mixed, 1280, 360))
 {
     struct inspector *inspector = s->editor->inspector;
-    s->editor->core.view.more = true;
+    show_more(s->editor, true);
     session_frame(s);
     inspector->sections.offset = 1e6f;
     session_frame(s);
     for (int unfolded = 0; unfolded < 2; unfolded++) {
         const char *title = unfolded ? "Tail set-up" : "More";
         if (unfolded) inspector_unfold(inspector, "section.tail");
-        s->editor->core.view.more = unfolded;
+        show_more(s->editor, unfolded);
         session_frame(s);
         const float first = drawn_at(s, title);
         session_frame(s);

@@ -25,7 +25,7 @@ SESSION_TEST(test_the_edge_is_dragged_down, open_creature(s))
 {
     const char *before = session_saved(s);
     session_hover(s, "floor(c)");
-    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_floor);
+    assert_ptr_equal(hovered(s->editor), &thing_floor);
     assert_int_equal(editor_cursor(s->editor), CURSOR_VERTICAL);
     float from[2], to[2];
     edge(s, from);
@@ -67,6 +67,6 @@ SESSION_TEST(test_without_a_floor_there_is_no_edge, open_creature(s))
     s->document->rigs[0]->character.has_floor = false;
     session_move(s, at[0], at[1]);
     session_frame(s);
-    assert_ptr_not_equal(s->editor->core.input.hover.thing, &thing_floor);
+    assert_ptr_not_equal(hovered(s->editor), &thing_floor);
     assert_false(editor_target(s->editor, "floor(c)", &at[0], &at[1], &error));
 }

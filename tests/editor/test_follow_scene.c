@@ -13,7 +13,7 @@ static void open_scene(struct session *s)
     session_key(s, KEY_LEFT, MOD_SHIFT);
 }
 
-static const struct pose *pose_of(const struct session *s) { return &s->editor->stage->strands[0].pose; }
+static const struct pose *pose_of(const struct session *s) { return posed(s->editor); }
 
 /// How far joint n turns sideways from the one before, radians.
 static double side_bend(const struct pose *pose, int n)
@@ -65,12 +65,12 @@ SESSION_TEST(test_playing_is_scrubbing, open_scene(s))
     int count = 0;
     while (count < 4 * FRAMES / 2) {
         session_frame(s);
-        at[count] = s->editor->core.view.playback.position;
+        at[count] = playback_of(s->editor)->position;
         played[count++] = *pose_of(s);
     }
     session_key(s, KEY_SPACE, 0);
     for (int i = count - 1; i >= 0; i -= 7) {
-        s->editor->core.view.playback.position = at[i];
+        playback_of(s->editor)->position = at[i];
         session_frame(s);
         assert_memory_equal(pose_of(s)->matrix, played[i].matrix, (JOINTS + 1) * sizeof played[i].matrix[0]);
     }

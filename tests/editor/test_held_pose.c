@@ -79,7 +79,7 @@ static void assert_held(const struct session *session, int s, int sample)
         struct evaluation evaluation = {0};
         changes[c](changed, s, spline->knots[at].id);
         evaluation_update(&evaluation, changed, false);
-        const double by = moved(&session->editor->core.evaluation->curves[s], &evaluation.curves[s], sample, size);
+        const double by = moved(&solved(session->editor)->curves[s], &evaluation.curves[s], sample, size);
         if (!(by <= 1e-9)) fail_msg("change %zu moves %s by %g of its largest knot", c, spline->name, by);
         evaluation_free(&evaluation);
         document_destroy(changed);
@@ -90,7 +90,7 @@ static void assert_held(const struct session *session, int s, int sample)
 static void pull_at(struct session *session, double frame, const char *target, float dx, float dy)
 {
     float before[2], after[2];
-    playback_seek(&session->editor->core, frame);
+    seek(session->editor, frame);
     session_frame(session);
     session_pull(session, target, dx, dy, 8);
     for (int i = 0; i < 30; i++) session_frame(session);
@@ -129,7 +129,7 @@ SESSION_TEST(the_first_pull_begins_from_rest, open_beast(s, ""))
     assert_int_equal(tail->knot_count, 2);
     assert_true(tail->knots[0].still && tail->knots[1].has_phase);
     assert_near(tail->knots[0].frame, 36, 0); // 24 frames a second, 1.5 Hz
-    for (int i = 0; i <= 36; i++) assert_near(s->editor->core.evaluation->curves[0].total[i], 0, 1e-12);
+    for (int i = 0; i <= 36; i++) assert_near(solved(s->editor)->curves[0].total[i], 0, 1e-12);
     pull_at(s, 1, "chain(ear,0.9)", 0, -8);
     const struct spline *ear = s->document->splines[1];
     assert_int_equal(ear->knot_count, 2);

@@ -12,7 +12,7 @@ static void open_help(struct session *s, float width, float height)
 {
     panel_open(s, scene, width, height);
     session_key(s, KEY_F1, 0);
-    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
+    assert_true(looked_up(s->editor) == LOOKUP_KEYS);
 }
 
 static bool is_seen(const struct draw_command *c) { return c && c->y > c->clip.y && c->y < c->clip.y + c->clip.h; }
@@ -61,14 +61,14 @@ SESSION_TEST(test_esc_enter_f1_and_a_click_close_the_help, panel_open(s, scene, 
     static const int closing[] = {KEY_ESCAPE, KEY_ENTER, KEY_F1};
     for (size_t i = 0; i < sizeof closing / sizeof closing[0]; i++) {
         session_key(s, KEY_F1, 0);
-        assert_true(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
+        assert_true(looked_up(s->editor) == LOOKUP_KEYS);
         session_key(s, closing[i], 0);
-        assert_false(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
+        assert_false(looked_up(s->editor) == LOOKUP_KEYS);
     }
     session_key(s, KEY_F1, 0);
     session_move(s, 500, 500);
     session_click_here(s, 1);
-    assert_false(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
+    assert_false(looked_up(s->editor) == LOOKUP_KEYS);
 }
 
 /// As a finger does; it stays open, and no row is clicked.
@@ -79,19 +79,19 @@ SESSION_TEST(test_a_drag_scrolls_the_lists, open_help(s, 390, 792))
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, -160, 8);
     session_release(s, BUTTON_LEFT);
-    assert_near(s->editor->dialogs->lookup.list.offset, 160, 1);
+    assert_near(lookup_of(s->editor)->list.offset, 160, 1);
     session_key(s, KEY_F3, 0);
     session_move(s, from[0], from[1]);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, -160, 8);
-    assert_near(s->editor->dialogs->lookup.list.offset, 10, 0);
+    assert_near(lookup_of(s->editor)->list.offset, 10, 0);
     session_drag(s, 0, 80, 8);
     session_release(s, BUTTON_LEFT);
-    assert_near(s->editor->dialogs->lookup.list.offset, 5, 0);
-    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
+    assert_near(lookup_of(s->editor)->list.offset, 5, 0);
+    assert_true(looked_up(s->editor) == LOOKUP_PALETTE);
     session_move(s, 5, 5);
     session_click_here(s, 1);
-    assert_false(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
+    assert_false(looked_up(s->editor) == LOOKUP_PALETTE);
 }
 
 SESSION_TEST(test_typing_searches_the_help, panel_open(s, scene, 1280, 720))
@@ -103,7 +103,7 @@ SESSION_TEST(test_typing_searches_the_help, panel_open(s, scene, 1280, 720))
     panel_type(s, "onion");
     assert_true(is_seen(shown_text(s->editor, "Onion skin")));
     assert_null(shown_text(s->editor, "Double-click"));
-    assert_int_equal(s->editor->core.view.look, LOOK_WIGGLY);
+    assert_int_equal(look(s->editor), LOOK_WIGGLY);
 }
 
 /// F1 begins with ten rows about what the pointer is over.
@@ -137,7 +137,7 @@ TEST(test_ten_keys_about_what_is_under_the_pointer)
 static void search(struct session *s, const char *text)
 {
     session_key(s, KEY_F3, 0);
-    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
+    assert_true(looked_up(s->editor) == LOOKUP_PALETTE);
     panel_type(s, text);
 }
 
@@ -161,7 +161,7 @@ TEST(test_the_palette_runs_what_is_found)
         search(&s, cases[i].typed);
         if (!shown_text(s.editor, expected->name)) fail_msg("%s: not found by %s", expected->name, cases[i].typed);
         session_key(&s, KEY_ENTER, 0);
-        assert_false(s.editor->dialogs->lookup.kind == LOOKUP_PALETTE);
+        assert_false(looked_up(s.editor) == LOOKUP_PALETTE);
         session_close(&s);
     }
 }
@@ -170,7 +170,7 @@ SESSION_TEST(test_the_palette_does_what_the_key_does, session_open(s, scene))
 {
     search(s, "select all knots of");
     session_key(s, KEY_ENTER, 0);
-    assert_int_equal(selection_count(&s->editor->core.focus.selection, s->document->splines[0]), 2);
+    assert_int_equal(selection_count(selection_of(s->editor), s->document->splines[0]), 2);
     search(s, "delete sel");
     session_key(s, KEY_ENTER, 0);
     assert_int_equal(s->document->splines[0]->knot_count, 0);
@@ -187,10 +187,10 @@ SESSION_TEST(test_the_palette_says_what_is_missing, session_open(s, scene))
     session_frame(s);
     assert_non_null(shown_text(s->editor, "Select a knot first."));
     session_key(s, KEY_ENTER, 0);
-    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
+    assert_true(looked_up(s->editor) == LOOKUP_PALETTE);
     session_key(s, KEY_DELETE, 0);
     session_key(s, KEY_ESCAPE, 0);
-    assert_false(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
+    assert_false(looked_up(s->editor) == LOOKUP_PALETTE);
     assert_saved(s, before);
 }
 
@@ -204,7 +204,7 @@ TEST(test_the_palette_reaches_the_inspector)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct session s;
         panel_open(&s, scene, 1280, 1400);
-        s.editor->core.view.more = false;
+        show_more(s.editor, false);
         assert_false(panel_shows(&s, cases[i].shows));
         search(&s, cases[i].typed);
         session_key(&s, KEY_ENTER, 0);
@@ -253,11 +253,10 @@ TEST(test_every_command_runs)
             struct session s;
             session_open(&s, rich ? scene : empty);
             if (rich) session_key(&s, 'A', MOD_CTRL);
-            const bool can = command_runs(&commands[c]) && !need_missing(&s.editor->core, commands[c].needs);
+            const bool can = command_runs(&commands[c]) && !missing(s.editor, commands[c].needs);
             if (can) command_run(s.editor, &commands[c]);
             session_frame(&s);
-            if (can && s.editor->core.message.is_error)
-                fail_msg("“%s”: %s", commands[c].name, s.editor->core.message.text);
+            if (can && said_error(s.editor)) fail_msg("“%s”: %s", commands[c].name, said(s.editor));
             session_close(&s);
         }
     }
@@ -268,19 +267,19 @@ SESSION_TEST(test_the_palette_is_walked, session_open(s, scene))
 {
     search(s, "");
     session_key(s, KEY_UP, 0);
-    const int last = s->editor->dialogs->lookup.choice;
+    const int last = lookup_of(s->editor)->choice;
     assert_true(last > 80);
     session_key(s, KEY_DOWN, 0);
-    assert_int_equal(s->editor->dialogs->lookup.choice, 0);
+    assert_int_equal(lookup_of(s->editor)->choice, 0);
     for (int i = 0; i < 20; i++) session_key(s, KEY_PAGE_DOWN, 0);
-    assert_int_equal(s->editor->dialogs->lookup.choice, last);
+    assert_int_equal(lookup_of(s->editor)->choice, last);
     session_wheel(s, 1000);
     panel_type(s, "onion");
     const struct draw_command *row = shown_text(s->editor, "Onion skin");
     assert_non_null(row);
     session_move(s, row->x + 4, row->y - 4);
     session_click_here(s, 1);
-    assert_true(s->editor->core.view.overlays.onion);
+    assert_true(overlays_of(s->editor)->onion);
 }
 
 // --- the table -------------------------------------------------------------------------------------------
@@ -314,33 +313,33 @@ TEST(test_every_letter_to_hold_is_in_the_help)
     }
 }
 
-static const char *missing(const struct session *s, int key, unsigned mods)
+static const char *lacks(const struct session *s, int key, unsigned mods)
 {
-    return need_missing(&s->editor->core, keys_command(key, mods)->needs);
+    return missing(s->editor, keys_command(key, mods)->needs);
 }
 
 /// Whether a command can be done now follows the scene and the selection.
 SESSION_TEST(test_what_can_be_done_now, session_open(s, scene))
 {
-    assert_string_equal(missing(s, 'Z', MOD_CTRL), "There is nothing to undo.");
-    assert_string_equal(missing(s, 'T', 0), "Select a knot first.");
-    assert_string_equal(missing(s, 'J', 0), "Click a bone of an imported character first.");
-    assert_string_equal(missing(s, 'B', MOD_SHIFT), "Select a soft character first.");
-    assert_string_equal(missing(s, KEY_PAGE_UP, MOD_ALT), "Select a pin first.");
-    assert_null(missing(s, 'A', MOD_CTRL));
-    assert_null(missing(s, 'S', MOD_CTRL));
+    assert_string_equal(lacks(s, 'Z', MOD_CTRL), "There is nothing to undo.");
+    assert_string_equal(lacks(s, 'T', 0), "Select a knot first.");
+    assert_string_equal(lacks(s, 'J', 0), "Click a bone of an imported character first.");
+    assert_string_equal(lacks(s, 'B', MOD_SHIFT), "Select a soft character first.");
+    assert_string_equal(lacks(s, KEY_PAGE_UP, MOD_ALT), "Select a pin first.");
+    assert_null(lacks(s, 'A', MOD_CTRL));
+    assert_null(lacks(s, 'S', MOD_CTRL));
     session_key(s, 'A', MOD_CTRL);
-    assert_null(missing(s, 'T', 0));
+    assert_null(lacks(s, 'T', 0));
     session_key(s, KEY_DELETE, 0);
-    assert_null(missing(s, 'Z', MOD_CTRL));
-    assert_string_equal(missing(s, 'A', MOD_CTRL), "Insert a knot first.");
-    assert_string_equal(missing(s, 'Y', MOD_CTRL), "There is nothing to redo.");
+    assert_null(lacks(s, 'Z', MOD_CTRL));
+    assert_string_equal(lacks(s, 'A', MOD_CTRL), "Insert a knot first.");
+    assert_string_equal(lacks(s, 'Y', MOD_CTRL), "There is nothing to redo.");
     session_key(s, 'Z', MOD_CTRL);
-    assert_null(missing(s, 'Y', MOD_CTRL));
-    assert_string_equal(missing(s, KEY_END, 0), "Select a knot first.");
-    assert_null(missing(s, 'H', 0));
+    assert_null(lacks(s, 'Y', MOD_CTRL));
+    assert_string_equal(lacks(s, KEY_END, 0), "Select a knot first.");
+    assert_null(lacks(s, 'H', 0));
     for (int i = s->document->rig_count; i > 0; i--) assert_done(edit_rig_remove(s->document, i - 1, &error));
-    assert_string_equal(missing(s, 'H', 0), "Add a tail, a chain or a soft character first.");
+    assert_string_equal(lacks(s, 'H', 0), "Add a tail, a chain or a soft character first.");
 }
 
 enum { MAX_CHORDS = 256 };

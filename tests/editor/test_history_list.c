@@ -74,11 +74,11 @@ SESSION_TEST(test_long_list, open_list(s, 40))
 SESSION_TEST(test_wheel, open_list(s, 40))
 {
     editor_resize(s->editor, 1280, 600, 1);
-    inspector_unfold(s->editor->inspector, "section.history");
+    unfold(s->editor, "section.history");
     session_frame(s);
     const struct inspector *inspector = s->editor->inspector;
     float x, y;
-    assert_true(inspector_target(s->editor->inspector, "section.history", &x, &y));
+    assert_true(widget_at(s->editor, "section.history", &x, &y));
     session_move(s, x, y + 60);
     const float offset = inspector->sections.offset;
     assert_true(offset > 100);
@@ -103,7 +103,7 @@ SESSION_TEST(test_dropped, panel_open(s, scene, 1280, 984))
     assert_true(history_dropped(s->history) > 10);
     for (int i = 0; i < 20; i++) {
         float x, y;
-        assert_true(inspector_target(s->editor->inspector, "section.history", &x, &y));
+        assert_true(widget_at(s->editor, "section.history", &x, &y));
         session_move(s, x, y + 40);
         session_wheel(s, 1);
     }

@@ -14,9 +14,9 @@
 static void paste_cut(struct session *s)
 {
     session_key(s, 'X', MOD_CTRL);
-    char *text = strdup(s->editor->core.clipboard);
+    char *text = strdup(copied(s->editor));
     assert_int_equal(s->document->splines[0]->knot_count, 0);
-    s->editor->core.view.playback.position = 30;
+    playback_of(s->editor)->position = 30;
     session_send(s, (struct event){.kind = EVENT_PASTE, .text = text});
     session_frame(s);
     free(text);
@@ -148,7 +148,7 @@ TEST(test_a_value_comes_back)
         session_open(&s, scene);
         session_click(&s, "knot(sway,1)");
         if (!loaded) session_key(&s, 'P', MOD_SHIFT);
-        if (!loaded) assert_non_null(strstr(s.editor->core.message.text, "comes to rest at the equilibrium"));
+        if (!loaded) assert_said(s.editor, "comes to rest at the equilibrium");
         assert_non_null(shown_text(s.editor, "Comes to rest at the equilibrium"));
         const struct knot *knot = &s.document->splines[0]->knots[1];
         assert_true(knot->still);
@@ -164,7 +164,7 @@ TEST(test_a_value_comes_back)
         knot = &s.document->splines[0]->knots[1];
         assert_false(knot->still || knot->has_phase || knot->has_slope);
         assert_near(knot->value, row->value, 1e-9);
-        assert_non_null(strstr(s.editor->core.message.text, row->said));
+        assert_said(s.editor, row->said);
         session_close(&s);
     }
 }
@@ -186,7 +186,7 @@ TEST(test_a_kept_value_explains_nothing)
         session_click(&s, "knot(sway,4)");
         if (i == 0) session_key(&s, 'P', MOD_SHIFT);
         session_key(&s, 'F', MOD_SHIFT);
-        assert_non_null(strstr(s.editor->core.message.text, "Best"));
+        assert_said(s.editor, "Best");
         found[i] = s.document->splines[0]->parameter[PARAMETER_FREQUENCY].value;
         session_close(&s);
     }
@@ -207,7 +207,7 @@ SESSION_TEST(test_knots_settle_and_do_not, session_open(s, HOLDING))
     assert_saved(s, original);
     session_click(s, "knot(sway,2)");
     session_key(s, 'P', MOD_ALT);
-    assert_non_null(strstr(s->editor->core.message.text, "no value to settle at"));
+    assert_said(s->editor, "no value to settle at");
     assert_saved(s, original);
 }
 
@@ -250,7 +250,7 @@ TEST(test_a_still_knot_is_where_it_is_seen)
         "{\"wiggly\": 2, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": "
         "0.1, \"equilibrium\": 2, \"knots\": [{\"frame\": 24, \"value\": 2.5}, {\"frame\": 48, \"still\": true}]}]}");
     session_hover(&s, "knot(sway,1)");
-    assert_ptr_equal(s.editor->core.input.hover.thing, &thing_knot);
+    assert_ptr_equal(hovered(s.editor), &thing_knot);
     assert_non_null(shown_text(
         s.editor, "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)"));
     session_close(&s);

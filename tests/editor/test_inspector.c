@@ -45,18 +45,17 @@ SESSION_TEST(test_closing_ends_a_drag, panel_open(s, scene, 1280, 720))
     panel_drag(s, "frequency", 3);
     session_send(s, (struct event){.kind = EVENT_CLOSE});
     assert_false(history_is_open(s->history));
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_UNSAVED);
+    assert_int_equal(asked(s->editor), DIALOG_UNSAVED);
 }
 
 SESSION_TEST(test_typed_nonsense_is_said_and_refused, panel_open(s, scene, 1280, 720))
 {
     panel_enter(s, "damping", "lots");
-    assert_true(s->editor->core.message.is_error);
-    assert_non_null(strstr(s->editor->core.message.text, "damping: expected a number"));
+    assert_said_error(s->editor, "damping: expected a number");
     session_key(s, 'A', 0);
     session_key(s, KEY_ESCAPE, 0);
     panel_enter(s, "damping", "1.5"); // more than complex mode takes
-    assert_non_null(strstr(s->editor->core.message.text, "damping: expected 0 … 1"));
+    assert_said(s->editor, "damping: expected 0 … 1");
     assert_near(parameter(s, 0, PARAMETER_DAMPING)->value, 0.1, 0);
     assert_null(history_undo_label(s->history));
 }
@@ -65,41 +64,41 @@ SESSION_TEST(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 
 {
     panel_press(s, "frequency", 2);
     panel_release(s);
-    assert_true(inspector_ui(s->editor->inspector)->typing);
+    assert_true(inspector_of(s->editor)->typing);
     session_key(s, 'A', MOD_CTRL); // all of what is typed, not all knots
     panel_type(s, "v m.");
-    assert_int_equal(selection_count(&s->editor->core.focus.selection, s->document->splines[0]), 0);
+    assert_int_equal(selection_count(selection_of(s->editor), s->document->splines[0]), 0);
     session_key(s, KEY_END, 0);
     session_key(s, 'A', MOD_CTRL);
     panel_type(s, "x");
-    assert_string_equal(s->editor->inspector->ui.text.bytes, "x");
+    assert_string_equal(inspector_of(s->editor)->text.bytes, "x");
     session_key(s, KEY_DELETE, 0);
     session_key(s, KEY_SPACE, 0);
-    assert_int_equal(s->editor->core.view.look, LOOK_WIGGLY);
+    assert_int_equal(look(s->editor), LOOK_WIGGLY);
     assert_int_equal(spline_mode(s->document->splines[0]), WIGGLY_COMPLEX);
     assert_int_equal(s->document->splines[0]->knot_count, 3);
-    assert_false(s->editor->core.view.playback.playing);
+    assert_false(playback_of(s->editor)->playing);
     session_key(s, KEY_F1, 0);
-    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
+    assert_true(looked_up(s->editor) == LOOKUP_KEYS);
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, KEY_ESCAPE, 0);
-    assert_false(inspector_ui(s->editor->inspector)->typing);
+    assert_false(inspector_of(s->editor)->typing);
     session_key(s, 'V', 0);
-    assert_int_equal(s->editor->core.view.look, LOOK_STIFF);
+    assert_int_equal(look(s->editor), LOOK_STIFF);
 }
 
 SESSION_TEST(test_arrows_belong_to_the_focus, panel_open(s, scene, 1280, 720))
 {
-    s->editor->inspector->ui.focus = panel_id(s, "frequency");
+    inspector_of(s->editor)->focus = panel_id(s, "frequency");
     session_key(s, KEY_RIGHT, 0);
     session_key(s, KEY_RIGHT, 0);
     assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1.1, 0);
-    assert_near(s->editor->core.view.playback.position, 0, 0);
+    assert_near(playback_of(s->editor)->position, 0, 0);
     session_key(s, 'Z', MOD_CTRL); // the run of nudges is one step
     assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, KEY_RIGHT, 0);
-    assert_near(s->editor->core.view.playback.position, 1, 0);
+    assert_near(playback_of(s->editor)->position, 1, 0);
     assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
 }
 
@@ -114,30 +113,30 @@ SESSION_TEST(test_only_what_counts_is_shown, panel_open(s, scene, 1280, 1700))
     panel_click(s, "mode.cubic");
     assert_false(panel_shows(s, "frequency"));
     panel_click(s, "spline.lift");
-    assert_int_equal(s->editor->core.focus.active, 2);
+    assert_int_equal(active(s->editor), 2);
     assert_false(panel_shows(s, "frequency")); // a track drives it
     assert_true(panel_shows(s, "damping"));
     panel_click(s, "start.loop");
     assert_int_equal(spline_start(s->document->splines[2]), WIGGLY_LOOP);
     panel_click(s, "look.cubic");
-    assert_int_equal(s->editor->core.view.look, LOOK_CUBIC);
+    assert_int_equal(look(s->editor), LOOK_CUBIC);
 }
 
 SESSION_TEST(test_knot_is_edited_in_place, panel_open(s, scene, 1280, 1600))
 {
     unsigned id = s->document->splines[0]->knots[1].id;
-    selection_set(&s->editor->core.focus.selection, id, true);
+    selection_set(selection_of(s->editor), id, true);
     panel_enter(s, "value", "0.75");
     assert_near(s->document->splines[0]->knots[1].value, 0.75, 0);
     panel_enter(s, "value", "8"); // above all that was in sight
     for (int frame = 0; frame < 90; frame++) session_frame(s);
-    assert_true(s->editor->curves->view.value1 > 8);
+    assert_true(plot_of(s->editor)->value1 > 8);
     panel_enter(s, "frame", "70"); // past its neighbour
     assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
     assert_int_equal(s->document->splines[0]->knots[2].id, id);
     panel_enter(s, "frame", "60"); // where another knot sits
     assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
-    assert_true(s->editor->core.message.is_error);
+    assert_true(said_error(s->editor));
     panel_pull(s, "frame", 600, 0, 1); // far beyond the scene: it stops at the last frame
     assert_near(s->document->splines[0]->knots[2].frame, 96, 0);
     panel_click(s, "has_slope");
@@ -157,17 +156,17 @@ SESSION_TEST(test_one_knot_has_one_frame, panel_open(s, scene, 1280, 1400))
 SESSION_TEST(test_the_knot_section_without_a_knot, panel_open(s, scene, 1280, 1400))
 {
     float x, y[2];
-    assert_true(inspector_target(s->editor->inspector, "section.splines", &x, &y[0]));
-    s->editor->core.view.playback.position = 20;
+    assert_true(widget_at(s->editor, "section.splines", &x, &y[0]));
+    playback_of(s->editor)->position = 20;
     panel_click(s, "knot.insert");
     assert_int_equal(s->document->splines[0]->knot_count, 4);
     assert_near(s->document->splines[0]->knots[1].frame, 20, 0);
-    assert_true(inspector_target(s->editor->inspector, "section.splines", &x, &y[1]));
+    assert_true(widget_at(s->editor, "section.splines", &x, &y[1]));
     assert_near(y[1], y[0], 0);
     assert_false(panel_shows(s, "knot.insert"));
     session_key(s, KEY_ESCAPE, 0);
     panel_click(s, "knot.next");
-    assert_near(s->editor->core.view.playback.position, 36, 0);
+    assert_near(playback_of(s->editor)->position, 36, 0);
     session_key(s, KEY_ESCAPE, 0);
     panel_click(s, "knot.all");
     assert_true(panel_shows(s, "slope.flat"));
@@ -192,7 +191,7 @@ SESSION_TEST(test_several_knots, panel_open(s, scene, 1280, 1600))
     assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
     panel_enter(s, "frame", "40"); // the last one would leave the scene
     assert_near(s->document->splines[0]->knots[0].frame, 10, 0);
-    assert_non_null(strstr(s->editor->core.message.text, "frame 100 is outside 0 to 96"));
+    assert_said(s->editor, "frame 100 is outside 0 to 96");
     panel_pull(s, "frame", 60, 0, 60); // as far as it goes
     assert_near(s->document->splines[0]->knots[2].frame, 96, 0);
     assert_near(s->document->splines[0]->knots[1].frame, 72, 0);
@@ -200,12 +199,12 @@ SESSION_TEST(test_several_knots, panel_open(s, scene, 1280, 1600))
     panel_enter(s, "stiffness", "50");
     for (int k = 0; k < 3; k++) assert_near(s->document->splines[0]->knots[k].stiffness, 50, 0);
     panel_enter(s, "slope", "steep");
-    assert_non_null(strstr(s->editor->core.message.text, "slope: expected a number"));
+    assert_said(s->editor, "slope: expected a number");
 }
 
 SESSION_TEST(test_frame_drag_passes_through_a_neighbour, panel_open(s, scene, 1280, 720))
 {
-    selection_set(&s->editor->core.focus.selection, s->document->splines[0]->knots[1].id, true);
+    selection_set(selection_of(s->editor), s->document->splines[0]->knots[1].id, true);
     panel_press(s, "frame", 1);
     float x = s->x;
     for (int moved = 3; moved <= 30; moved++) session_move(s, x + (float)moved, s->y);
@@ -247,9 +246,9 @@ TEST(test_tail_array_scales_as_a_whole)
     session_key(&f, 'Z', MOD_CTRL);
     assert_near(document_tail(f.document, 0)->channels[0].gain.value[0], 3, 0);
     session_key(&f, KEY_PAGE_UP, 0); // the tail's numbers are those of the spline that is edited
-    assert_int_equal(f.editor->inspector->channel, 1);
+    assert_int_equal(shown_channel(f.editor), 1);
     session_key(&f, KEY_PAGE_DOWN, 0);
-    assert_int_equal(f.editor->inspector->channel, 0);
+    assert_int_equal(shown_channel(f.editor), 0);
     panel_click(&f, "channel.1");
     panel_drag(&f, "lag", 12);
     panel_release(&f);
@@ -260,8 +259,8 @@ TEST(test_tail_array_scales_as_a_whole)
 
 static bool shows_text(struct session *f, const char *part)
 {
-    struct drawlist *list = &f->editor->core.list;
-    drawlist_clear(list, f->editor->core.view.layout.window);
+    struct drawlist *list = drawn_by(f->editor);
+    drawlist_clear(list, layout_of(f->editor)->window);
     inspector_show(f->editor->inspector, false);
     for (int i = 0; i < list->count; i++) {
         if (list->commands[i].kind == DRAW_TEXT && strstr(list->text + list->commands[i].first, part)) return true;
@@ -393,9 +392,9 @@ TEST(test_the_hint_of_a_position_outlives_the_panel)
     struct session s;
     float x, y;
     panel_open(&s, tail, 1280, 1400);
-    assert_true(inspector_target(s.editor->inspector, "position.y", &x, &y));
+    assert_true(widget_at(s.editor, "position.y", &x, &y));
     session_move(&s, x, y);
     session_frame(&s);
-    assert_string_equal(inspector_ui(s.editor->inspector)->hint, "Position of the body along y");
+    assert_string_equal(inspector_of(s.editor)->hint, "Position of the body along y");
     session_close(&s);
 }

@@ -6,10 +6,7 @@ static const char scene[] =
     "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"channels\": ["
     "{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\"}]}]}";
 
-static const char *active_name(const struct session *f)
-{
-    return f->document->splines[f->editor->core.focus.active]->name;
-}
+static const char *active_name(const struct session *f) { return f->document->splines[active(f->editor)]->name; }
 
 SESSION_TEST(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 720))
 {
@@ -21,7 +18,7 @@ SESSION_TEST(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 
     assert_near(s->document->splines[3]->parameter[PARAMETER_FREQUENCY].value, 1, 0);
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
-    assert_true(s->editor->core.focus.active >= 0 && s->editor->core.focus.active < 3);
+    assert_true(active(s->editor) >= 0 && active(s->editor) < 3);
 }
 
 /// What is being edited stays what it is when the list around it changes, and when that is undone.
@@ -31,7 +28,7 @@ SESSION_TEST(test_the_active_spline_is_followed, panel_open(s, scene, 1280, 720)
     const char *before = session_saved(s);
     panel_click(s, "splines.down");
     assert_string_equal(active_name(s), "pace");
-    assert_int_equal(s->editor->core.focus.active, 2);
+    assert_int_equal(active(s->editor), 2);
     assert_one_step(s, before);
     assert_string_equal(active_name(s), "pace");
     session_key(s, 'Z', MOD_CTRL);
@@ -40,7 +37,7 @@ SESSION_TEST(test_the_active_spline_is_followed, panel_open(s, scene, 1280, 720)
     assert_string_equal(active_name(s), "pace 2");
     panel_click(s, "splines.delete"); // nothing follows it: no question
     assert_int_equal(s->document->spline_count, 3);
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    assert_int_equal(asked(s->editor), DIALOG_NONE);
 }
 
 /// Deleting what others follow asks; then they keep the value of that frame, and the tail lets go of it.
@@ -50,7 +47,7 @@ SESSION_TEST(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 72
     panel_click(s, "spline.pace");
     const char *before = session_saved(s);
     panel_click(s, "splines.delete");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
+    assert_int_equal(asked(s->editor), DIALOG_ASK);
     session_key(s, KEY_ESCAPE, 0);
     assert_int_equal(s->document->spline_count, 3);
     panel_click(s, "splines.delete");
@@ -73,10 +70,10 @@ SESSION_TEST(test_an_empty_list, panel_open(s, scene, 960, 680))
 {
     for (int i = 0; i < 3; i++) {
         panel_click(s, "splines.delete");
-        if (s->editor->dialogs->dialog.kind == DIALOG_ASK) session_key(s, 'D', 0);
+        if (asked(s->editor) == DIALOG_ASK) session_key(s, 'D', 0);
     }
     assert_int_equal(s->document->spline_count, 0);
-    assert_int_equal(s->editor->core.focus.active, -1);
+    assert_int_equal(active(s->editor), -1);
     panel_click(s, "splines.delete");
     panel_click(s, "splines.copy");
     panel_click(s, "splines.add");
@@ -97,7 +94,7 @@ SESSION_TEST(test_renaming, panel_open(s, scene, 1280, 720))
     panel_type(s, "pace");
     session_key(s, KEY_ENTER, 0);
     assert_string_equal(s->document->splines[0]->name, "swing");
-    assert_non_null(strstr(s->editor->core.message.text, "a spline called pace already exists"));
+    assert_said(s->editor, "a spline called pace already exists");
     session_key(s, KEY_F2, 0);
     session_key(s, KEY_END, 0); // the name that is there is what is edited
     panel_type(s, "s");
@@ -108,7 +105,7 @@ SESSION_TEST(test_renaming, panel_open(s, scene, 1280, 720))
     session_key(s, KEY_DELETE, 0); // all is selected
     session_key(s, KEY_ENTER, 0);
     assert_string_equal(s->document->splines[0]->name, "swing");
-    assert_non_null(strstr(s->editor->core.message.text, "a spline needs a name"));
+    assert_said(s->editor, "a spline needs a name");
     assert_int_equal(s->document->splines[0]->knot_count, 3);
 }
 
@@ -130,14 +127,14 @@ SESSION_TEST(test_colours, panel_open(s, scene, 1280, 720))
     panel_click(s, "color.pace");
     panel_click(s, "color.3");
     assert_int_equal(s->document->splines[1]->color, 0x1F9E7A);
-    assert_false(s->editor->inspector->ui.popup.id);
+    assert_false(inspector_of(s->editor)->popup.id);
     assert_one_step(s, before);
     panel_click(s, "color.pace");
     panel_click(s, "color.type");
     panel_type(s, "#12345");
     session_key(s, KEY_ENTER, 0);
     assert_int_equal(s->document->splines[1]->color, 0x1F9E7A);
-    assert_non_null(strstr(s->editor->core.message.text, "colour: expected something like #FFB000, got “#12345”"));
+    assert_said(s->editor, "colour: expected something like #FFB000, got “#12345”");
     panel_click(s, "color.type");
     panel_type(s, "#123456");
     session_key(s, KEY_ENTER, 0);
@@ -153,10 +150,10 @@ SESSION_TEST(test_hidden_and_solo_curves, panel_open(s, scene, 1280, 720))
     assert_int_equal(s->editor->curves->cache.other_count, 1);
     panel_click(s, "spline.pace"); // the order of the list does not matter to what is hidden
     panel_click(s, "splines.up");
-    assert_false(spline_list_shows(&s->editor->core, 0));
+    assert_false(curves_show_spline(s->editor, 0));
     panel_click(s, "solo.lift");
-    assert_true(spline_list_shows(&s->editor->core, 2));
-    assert_false(spline_list_shows(&s->editor->core, 1));
+    assert_true(curves_show_spline(s->editor, 2));
+    assert_false(curves_show_spline(s->editor, 1));
     panel_click(s, "solo.lift");
     panel_click(s, "eye.pace");
     assert_int_equal(s->editor->curves->cache.other_count, 2);
@@ -177,8 +174,8 @@ SESSION_TEST(test_a_track_is_attached_and_detached, panel_open(s, scene, 1280, 7
     assert_false(panel_shows(s, "damping"));
     panel_click(s, "spline.pace");
     panel_click(s, "follow.equilibrium");
-    assert_false(ui_popup_is_open(&s->editor->inspector->ui, "follow")); // both others follow it
-    assert_non_null(strstr(s->editor->core.message.text, "no other spline for pace to follow"));
+    assert_false(ui_popup_is_open(inspector_of(s->editor), "follow")); // both others follow it
+    assert_said(s->editor, "no other spline for pace to follow");
     panel_click(s, "spline.sway");
     session_frame(s);
     panel_click(s, "follow.damping");
@@ -191,7 +188,7 @@ SESSION_TEST(test_frames_per_second_ask, panel_open(s, scene, 1280, 1600))
     panel_click(s, "section.scene");
     const char *before = session_saved(s);
     panel_enter(s, "scene.fps", "48");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
+    assert_int_equal(asked(s->editor), DIALOG_ASK);
     assert_near(s->document->fps, 24, 0);
     session_key(s, 'S', 0);
     assert_near(s->document->fps, 48, 0);
@@ -203,7 +200,7 @@ SESSION_TEST(test_frames_per_second_ask, panel_open(s, scene, 1280, 1600))
     session_key(s, 'F', 0);
     assert_near(s->document->splines[0]->knots[1].frame, 36, 0);
     panel_enter(s, "scene.fps", "0");
-    assert_non_null(strstr(s->editor->core.message.text, "rate: expected"));
+    assert_said(s->editor, "rate: expected");
     session_key(s, KEY_ESCAPE, 0);
 }
 
@@ -213,23 +210,23 @@ SESSION_TEST(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 1640))
     session_click(s, "ruler(80)");
     const char *before = session_saved(s);
     panel_enter(s, "scene.last", "50");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
+    assert_int_equal(asked(s->editor), DIALOG_ASK);
     session_key(s, 'T', 0);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
-    assert_near(s->editor->core.view.playback.position, 50, 0); // inside again
+    assert_near(playback_of(s->editor)->position, 50, 0); // inside again
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
     panel_enter(s, "scene.last", "50");
     session_key(s, 'M', 0);
     assert_near(s->document->splines[0]->knots[2].frame, 50, 0);
     panel_enter(s, "scene.last", "50.5");
-    assert_non_null(strstr(s->editor->core.message.text, "last: expected a whole number, got 50.5"));
+    assert_said(s->editor, "last: expected a whole number, got 50.5");
     panel_enter(s, "scene.first", "60");
-    assert_non_null(strstr(s->editor->core.message.text, "the last frame must not be before the first"));
+    assert_said(s->editor, "the last frame must not be before the first");
     panel_enter(s, "scene.first", "-10"); // the playhead stays on its frame
-    assert_near(s->editor->core.view.playback.position, 60, 0);
+    assert_near(playback_of(s->editor)->position, 60, 0);
     panel_enter(s, "scene.substeps", "4");
-    assert_near(core_frame(&s->editor->core), 50, 0);
+    assert_near(shown_frame(s->editor), 50, 0);
     assert_int_equal(s->document->substeps, 4);
 }
 
@@ -242,12 +239,12 @@ SESSION_TEST(a_range_has_an_end, panel_open(s, scene, 1280, 2000))
     const char *before = session_saved(s);
     char most[64];
     panel_enter(s, "scene.last", "999999999");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    assert_int_equal(asked(s->editor), DIALOG_NONE);
     snprintf(most, sizeof most, "last: expected -1000000000 … %d, got 999999999", longest);
-    assert_string_equal(s->editor->core.message.text, most);
+    assert_string_equal(said(s->editor), most);
     panel_enter(s, "scene.first", "-999999999");
     snprintf(most, sizeof most, "first: expected %d … 1000000000", s->document->last_frame - longest);
-    assert_non_null(strstr(s->editor->core.message.text, most));
+    assert_said(s->editor, most);
     assert_saved(s, before);
     snprintf(most, sizeof most, "%d", longest);
     panel_enter(s, "scene.last", most);
@@ -260,7 +257,7 @@ static void random_input(struct session *f, unsigned *seed)
 {
     static const int keys[] = {KEY_ENTER, KEY_ESCAPE, KEY_TAB, KEY_UP, KEY_DOWN,  KEY_LEFT,
                                KEY_RIGHT, KEY_DELETE, KEY_F2,  '3',    KEY_SPACE, KEY_BACKSPACE};
-    struct rect area = f->editor->core.view.layout.inspector;
+    struct rect area = layout_of(f->editor)->inspector;
     switch (next_random(seed) % 6) {
     case 0:
     case 1:

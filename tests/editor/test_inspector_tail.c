@@ -42,7 +42,7 @@ TALL_TEST(test_place_and_size)
     panel_click(s, "position.z.follow");
     panel_click(s, "item.walk");
     assert_int_equal(tail(s)->position[2].track, 1);
-    assert_near(s->editor->stage->strands[0].pose.matrix[0][14], 0.25, 1e-6);
+    assert_near(posed(s->editor)->matrix[0][14], 0.25, 1e-6);
     panel_click(s, "position.z.follow");
     assert_int_equal(tail(s)->position[2].track, -1);
     assert_near(tail(s)->position[2].value, 0.25, 1e-3); // stays where it was
@@ -60,8 +60,8 @@ TALL_TEST(test_channels)
     assert_int_equal(tail(s)->channels[0].spline, 1);
     panel_click(s, "channel.add");
     assert_int_equal(tail(s)->channel_count, 2);
-    assert_int_equal(tail(s)->channels[1].spline, s->editor->core.focus.active);
-    assert_int_equal(s->editor->inspector->channel, 1);
+    assert_int_equal(tail(s)->channels[1].spline, active(s->editor));
+    assert_int_equal(shown_channel(s->editor), 1);
     panel_click(s, "channel.0");
     panel_click(s, "channel.delete");
     assert_int_equal(tail(s)->channel_count, 1);
@@ -86,7 +86,7 @@ TALL_TEST(test_angles_one_for_each_joint)
     assert_near(tail(s)->channels[0].gain.value[0], 9, 0);
     const char *good = session_saved(s);
     panel_enter(s, "gain.joint", "x");
-    assert_non_null(strstr(s->editor->core.message.text, "joint 1: expected a number"));
+    assert_said(s->editor, "joint 1: expected a number");
     assert_saved(s, good);
     session_key(s, KEY_ESCAPE, 0);
     panel_click(s, "gain.ramp");
@@ -134,11 +134,11 @@ TALL_TEST(test_tails)
     panel_click(s, "rig.copy");
     assert_int_equal(document_count_rigs(s->document, RIG_TAIL), 2);
     assert_int_equal(s->editor->stage->tail_count, 2);
-    assert_int_equal(s->editor->inspector->rig, 1);
+    assert_int_equal(shown_rig(s->editor), 1);
     panel_click(s, "rig.delete"); // its spline bends the first one too: nothing to ask
     assert_int_equal(document_count_rigs(s->document, RIG_TAIL), 1);
     panel_click(s, "rig.delete");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
+    assert_int_equal(asked(s->editor), DIALOG_ASK);
     session_key(s, 'K', 0);
     assert_int_equal(document_count_rigs(s->document, RIG_TAIL), 0);
     assert_int_equal(s->editor->stage->tail_count, 0);
@@ -154,7 +154,6 @@ TALL_TEST(test_toggles)
     panel_click(s, "onion");
     panel_click(s, "trail");
     panel_click(s, "record");
-    assert_true(s->editor->core.view.overlays.onion && s->editor->core.view.overlays.trail &&
-                s->editor->core.step.record_armed);
+    assert_true(overlays_of(s->editor)->onion && overlays_of(s->editor)->trail && s->editor->core.step.record_armed);
     assert_null(history_undo_label(s->history));
 }

@@ -22,7 +22,7 @@ static void open_beast(struct session *session, const char *equilibrium)
         "\"lag\": 20, \"gain\": 8}]}]}",
         equilibrium, folder_path("beast.glb"));
     panel_open_models(session, scene);
-    if (session->editor->core.view.playback.playing) session_key(session, KEY_SPACE, 0);
+    if (playback_of(session->editor)->playing) session_key(session, KEY_SPACE, 0);
     session_move(session, 2, 2);
     session_frame(session);
 }
@@ -87,8 +87,8 @@ SESSION_TEST(test_a_joint_is_found_by_typing, open_beast(s, FOLLOWS))
 
 static int lines_on_stage(const struct session *session)
 {
-    const struct drawlist *list = &session->editor->core.list;
-    const struct rect stage = session->editor->core.view.layout.stage;
+    const struct drawlist *list = drawn_by(session->editor);
+    const struct rect stage = layout_of(session->editor)->stage;
     int count = 0;
     for (int i = 0; i < list->count; i++) {
         const struct rect *r = &list->commands[i].bounds;
@@ -157,12 +157,11 @@ SESSION_TEST(test_ends_that_are_no_chain_are_refused, open_beast(s, "0"))
     panel_click(s, "chain.to.pick");
     session_click(s, "bone(neck)");
     assert_saved(s, before);
-    assert_true(s->editor->core.message.is_error);
-    assert_non_null(strstr(s->editor->core.message.text, "expected \"neck\" below \"tail_1\""));
+    assert_said_error(s->editor, "expected \"neck\" below \"tail_1\"");
     panel_click(s, "chain.from.pick");
     session_click(s, "bone(head)");
     assert_saved(s, before);
-    assert_non_null(strstr(s->editor->core.message.text, "\"head\" branches into"));
+    assert_said(s->editor, "\"head\" branches into");
 }
 
 /// Two beasts side by side: a bone goes by its character's name, and can be asked for by it.
@@ -191,7 +190,7 @@ TEST(test_a_second_character_is_named)
     }
     session_click(&s, "bone(right/tail_3)");
     session_key(&s, 'J', 0);
-    assert_non_null(strstr(s.editor->core.message.text, "from right/tail_3 to tail_8"));
+    assert_said(s.editor, "from right/tail_3 to tail_8");
     session_click(&s, "bone(neck)"); // the first that there is
     assert_true(bones_selected(&s.editor->core, &model) >= 0);
     assert_int_equal(model, 0);
@@ -213,18 +212,18 @@ SESSION_TEST(test_a_large_gain_is_on_its_slider, open_beast(s, "0"))
 SESSION_TEST(test_undoing_a_chain_activates_what_was_active, open_beast(s, "0"))
 {
     session_key(s, KEY_PAGE_UP, 0);
-    assert_int_equal(s->editor->core.focus.active, 1);
+    assert_int_equal(active(s->editor), 1);
     session_click(s, "bone(ear_L_1)");
     session_key(s, 'J', 0);
     session_click(s, "bone(leg_FL_1)");
     session_key(s, 'J', 0);
-    assert_int_equal(s->editor->core.focus.active, 4);
+    assert_int_equal(active(s->editor), 4);
     session_key(s, 'Z', MOD_CTRL);
-    assert_int_equal(s->editor->core.focus.active, 2);
-    assert_int_equal(s->editor->inspector->rig, 2);
+    assert_int_equal(active(s->editor), 2);
+    assert_int_equal(shown_rig(s->editor), 2);
     session_key(s, 'Z', MOD_CTRL);
-    assert_int_equal(s->editor->core.focus.active, 1);
-    assert_int_equal(s->editor->inspector->rig, 1);
+    assert_int_equal(active(s->editor), 1);
+    assert_int_equal(shown_rig(s->editor), 1);
 }
 
 /// Where the knot of the first spline is in the curves, against the plot.

@@ -14,7 +14,7 @@ static const char jump[] = "{\"wiggly\": 1, \"frames\": [0, 72], \"splines\": [{
 
 static bool is_selected(const struct session *s, int knot)
 {
-    return selection_has(&s->editor->core.focus.selection, s->document->splines[0]->knots[knot].id);
+    return selection_has(selection_of(s->editor), s->document->splines[0]->knots[knot].id);
 }
 
 SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, scene))
@@ -27,42 +27,40 @@ SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, scene))
     for (int k = 0; k < 3; k++) assert_true(is_selected(s, k));
     assert_false(is_selected(s, 3));
     for (int i = 0; i < 3; i++) session_type(s, "<"); // there is nothing before the first
-    assert_int_equal(selection_count(&s->editor->core.focus.selection, s->document->splines[0]), 3);
+    assert_int_equal(selection_count(selection_of(s->editor), s->document->splines[0]), 3);
 }
 
 SESSION_TEST(test_the_curves_pan_and_zoom, session_open(s, scene))
 {
-    const struct plotted before = s->editor->curves->view;
+    const struct plotted before = *plot_of(s->editor);
     session_key(s, KEY_RIGHT, MOD_CTRL);
     session_key(s, KEY_UP, MOD_CTRL);
-    assert_true(s->editor->curves->view.frame0 > before.frame0 && s->editor->curves->view.value0 > before.value0);
+    assert_true(plot_of(s->editor)->frame0 > before.frame0 && plot_of(s->editor)->value0 > before.value0);
     session_key(s, KEY_LEFT, MOD_CTRL);
     session_key(s, KEY_DOWN, MOD_CTRL);
-    assert_near(s->editor->curves->view.frame0, before.frame0, 1e-3);
-    assert_near(s->editor->curves->view.value1, before.value1, 1e-3);
+    assert_near(plot_of(s->editor)->frame0, before.frame0, 1e-3);
+    assert_near(plot_of(s->editor)->value1, before.value1, 1e-3);
     session_key(s, '=', MOD_CTRL);
-    assert_near(s->editor->curves->view.frame1 - s->editor->curves->view.frame0,
-                0.8 * (before.frame1 - before.frame0), 1e-3);
+    assert_near(plot_of(s->editor)->frame1 - plot_of(s->editor)->frame0, 0.8 * (before.frame1 - before.frame0), 1e-3);
     session_key(s, '-', MOD_CTRL);
-    assert_near(s->editor->curves->view.frame1, before.frame1, 1e-3);
+    assert_near(plot_of(s->editor)->frame1, before.frame1, 1e-3);
 }
 
 SESSION_TEST(test_the_camera_turns_and_comes_back, session_open(s, scene))
 {
-    const struct camera before = s->editor->stage->camera;
+    const struct camera before = *camera_of(s->editor);
     session_key(s, KEY_RIGHT, MOD_CTRL | MOD_SHIFT);
     session_key(s, KEY_UP, MOD_CTRL | MOD_SHIFT);
     session_key(s, KEY_PAGE_UP, MOD_CTRL | MOD_SHIFT);
-    assert_true(s->editor->stage->camera.azimuth > before.azimuth &&
-                s->editor->stage->camera.elevation > before.elevation);
-    assert_true(s->editor->stage->camera.distance < before.distance);
+    assert_true(camera_of(s->editor)->azimuth > before.azimuth && camera_of(s->editor)->elevation > before.elevation);
+    assert_true(camera_of(s->editor)->distance < before.distance);
     session_key(s, KEY_HOME, MOD_SHIFT);
-    assert_memory_equal(&before, &s->editor->stage->camera, sizeof before);
+    assert_memory_equal(&before, camera_of(s->editor), sizeof before);
 }
 
 SESSION_TEST(test_panels_have_sizes_to_choose_from, session_open(s, scene))
 {
-    const struct layout *layout = &s->editor->core.view.layout, first = *layout;
+    const struct layout *layout = layout_of(s->editor), first = *layout;
     session_key(s, KEY_F6, 0);
     session_key(s, KEY_F6, MOD_SHIFT);
     assert_true(layout->stage_share > first.stage_share && layout->inspector_width > first.inspector_width);
@@ -74,12 +72,12 @@ SESSION_TEST(test_panels_have_sizes_to_choose_from, session_open(s, scene))
 
 SESSION_TEST(test_a_warning_is_done_away_with, session_open(s, jump))
 {
-    assert_int_equal(s->editor->curves->warnings.count, 1);
+    assert_int_equal(warnings_of(s->editor)->count, 1);
     session_key(s, 'W', 0);
     session_frame(s);
-    assert_int_equal(s->editor->curves->warnings.count, 0);
+    assert_int_equal(warnings_of(s->editor)->count, 0);
     session_key(s, 'Z', MOD_CTRL);
-    assert_int_equal(s->editor->curves->warnings.count, 1);
+    assert_int_equal(warnings_of(s->editor)->count, 1);
 }
 
 SESSION_TEST(test_a_number_goes_to_its_default, session_open(s, scene))
@@ -95,7 +93,7 @@ SESSION_TEST(test_a_number_goes_to_its_default, session_open(s, scene))
 /// Whether a line of the accent's colour, as the focus is drawn, lies around a widget or the part of it that is set.
 static bool is_ringed(const struct session *s, struct rect r)
 {
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
         struct rect both = rect_intersect(c->bounds, r);
@@ -118,7 +116,7 @@ static struct rect rect_of_focus(const struct ui *ui)
 /// Goes round with Tab, and sees the focus wherever it is. Returns how many places there are.
 static int tab_round(struct session *s)
 {
-    struct ui *ui = &s->editor->inspector->ui;
+    struct ui *ui = inspector_of(s->editor);
     session_key(s, KEY_TAB, 0);
     const uint32_t first = ui->focus;
     int count = 0;
@@ -136,9 +134,9 @@ static int tab_round(struct session *s)
 
 SESSION_TEST(test_the_focus_is_seen_wherever_it_goes, session_open(s, scene))
 {
-    inspector_unfold(s->editor->inspector, "section.scene");
-    inspector_unfold(s->editor->inspector, "section.poles");
-    inspector_unfold(s->editor->inspector, "section.history");
+    unfold(s->editor, "section.scene");
+    unfold(s->editor, "section.poles");
+    unfold(s->editor, "section.history");
     session_click(s, "knot(sway,1)");
     assert_true(tab_round(s) > 45);
 }
@@ -146,7 +144,7 @@ SESSION_TEST(test_the_focus_is_seen_wherever_it_goes, session_open(s, scene))
 /// Each stop is counted once, and after the last comes the first.
 static void assert_goes_round(struct session *s)
 {
-    const struct ui *ui = &s->editor->inspector->ui;
+    const struct ui *ui = inspector_of(s->editor);
     panel_unfold(s);
     const int stops = ui->stop_count;
     assert_true(stops > 60 && stops < UI_MAX_FOCUS);

@@ -31,7 +31,7 @@ SESSION_TEST(a_line_is_dragged_as_far_as_the_knots, session_open(s, swinging))
     const char *original = session_saved(s);
     assert_non_null(strstr(original, "\"limits\": [null, 1.2]"));
     session_hover(s, "curve(sway,100,1.2)");
-    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_limit);
+    assert_ptr_equal(hovered(s->editor), &thing_limit);
     pull(s, "curve(sway,100,1.2)", "curve(sway,100,1.05)");
     assert_near(limit(s, PARAMETER_HIGH), 1.05, 0.01);
     assert_true(highest(s) == limit(s, PARAMETER_HIGH) || highest(s) == 1);
@@ -46,41 +46,38 @@ SESSION_TEST(a_line_is_dragged_as_far_as_the_knots, session_open(s, swinging))
 /// While a limit holds a knot the status line says so, and no longer; it stays after the release, to be read.
 SESSION_TEST(what_holds_a_dragged_knot_is_said, session_open(s, swinging))
 {
-    const char *said = s->editor->core.message.text;
     session_pull(s, "knot(sway,1)", 0, -20, 4);
-    assert_string_equal(said, "");
+    assert_string_equal(said(s->editor), "");
     session_drag(s, 0, -400, 4);
     assert_near(s->document->splines[0]->knots[1].value, 1.2, 0);
-    assert_string_equal(said, "Held by the limit 1.2 of sway at frame 14.");
+    assert_string_equal(said(s->editor), "Held by the limit 1.2 of sway at frame 14.");
     session_drag(s, 0, 400, 4);
-    assert_string_equal(said, "");
+    assert_string_equal(said(s->editor), "");
     session_drag(s, 0, -400, 4);
     session_release(s, BUTTON_LEFT);
-    assert_string_equal(said, "Held by the limit 1.2 of sway at frame 14.");
+    assert_string_equal(said(s->editor), "Held by the limit 1.2 of sway at frame 14.");
 }
 
 /// A knot cannot leave the range nor sit on another one: what stops it is said as it is where knots are scaled.
 SESSION_TEST(what_stops_a_knot_in_time_is_said, session_open(s, swinging))
 {
-    const char *said = s->editor->core.message.text;
-    const float frame =
-        curves_x(s->editor->curves, &s->editor->core, 1) - curves_x(s->editor->curves, &s->editor->core, 0);
+    const float frame = x_of(s->editor, 1) - x_of(s->editor, 0);
     session_pull(s, "knot(sway,1)", 7 * frame, 0, 7);
-    assert_string_equal(said, "");
+    assert_string_equal(said(s->editor), "");
     session_drag(s, frame, 0, 1);
     assert_near(s->document->splines[0]->knots[1].frame, 21, 0);
-    assert_string_equal(said, "A knot would land on another on frame 22.");
+    assert_string_equal(said(s->editor), "A knot would land on another on frame 22.");
     session_drag(s, frame, 0, 1); // past it
-    assert_string_equal(said, "");
+    assert_string_equal(said(s->editor), "");
     session_drag(s, 120 * frame, 0, 5);
-    assert_string_equal(said, "A knot would leave the range.");
+    assert_string_equal(said(s->editor), "A knot would leave the range.");
     session_key(s, KEY_ESCAPE, 0);
     session_click(s, "knot(sway,0)");
     for (int i = 0; i < 8; i++) session_key(s, KEY_LEFT, MOD_ALT);
     assert_near(s->document->splines[0]->knots[0].frame, 0, 0);
-    s->editor->core.message.text[0] = 0;
+    hush(s->editor);
     session_key(s, KEY_LEFT, MOD_ALT);
-    assert_string_equal(said, "A knot would leave the range.");
+    assert_string_equal(said(s->editor), "A knot would leave the range.");
 }
 
 SESSION_TEST(a_nudge_goes_as_far_as_the_limit, session_open(s, swinging))
@@ -88,8 +85,8 @@ SESSION_TEST(a_nudge_goes_as_far_as_the_limit, session_open(s, swinging))
     session_click(s, "knot(sway,3)"); // 0.2 below it
     for (int i = 0; i < 9; i++) session_key(s, KEY_UP, MOD_ALT | MOD_SHIFT);
     assert_near(s->document->splines[0]->knots[3].value, 1.2, 0);
-    assert_string_equal(s->editor->core.message.text, "Held by the limit 1.2 of sway at frame 60.");
-    assert_false(s->editor->core.message.is_error);
+    assert_string_equal(said(s->editor), "Held by the limit 1.2 of sway at frame 60.");
+    assert_false(said_error(s->editor));
 }
 
 /// It bends as far as the limit; before, the pull was taken back as a whole.
@@ -105,8 +102,8 @@ SESSION_TEST(
     for (int i = 0; i < 20; i++) session_frame(s);
     session_release(s, BUTTON_LEFT);
     assert_near(fabs(s->document->splines[0]->knots[0].value), 0.5, 0);
-    assert_non_null(strstr(s->editor->core.message.text, "eld by the limit"));
-    assert_false(s->editor->core.message.is_error);
+    assert_said(s->editor, "eld by the limit");
+    assert_false(said_error(s->editor));
 }
 
 SESSION_TEST(the_inspector_switches_each, panel_open(s, swinging, 1280, 1000))

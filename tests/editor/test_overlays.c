@@ -23,8 +23,8 @@ struct found {
 static struct found find(const struct session *s, enum draw_kind kind, uint32_t color)
 {
     struct found found = {.count = 0};
-    const struct drawlist *list = &s->editor->core.list;
-    const struct rect *stage = &s->editor->core.view.layout.stage;
+    const struct drawlist *list = drawn_by(s->editor);
+    const struct rect *stage = &layout_of(s->editor)->stage;
     for (int i = 0; i < list->count && found.count < MAX_FOUND; i++) {
         const struct draw_command *command = &list->commands[i];
         bool inside =
@@ -38,7 +38,7 @@ static struct found find(const struct session *s, enum draw_kind kind, uint32_t 
 
 static void middle_of(const struct session *s, const struct draw_command *command, float xy[2])
 {
-    const float *points = s->editor->core.list.points + 2 * command->first;
+    const float *points = drawn_by(s->editor)->points + 2 * command->first;
     xy[0] = xy[1] = 0;
     for (int i = 0; i < command->count; i++) {
         xy[0] += points[2 * i] / (float)command->count;
@@ -67,7 +67,7 @@ SESSION_TEST(test_onion_shows_the_nearest_knots, session_open(s, scene))
     session_key(s, KEY_DELETE, 0);
     assert_int_equal(find(s, DRAW_LINE, color).count, 0);
     session_key(s, 'O', 0);
-    assert_false(s->editor->core.view.overlays.onion);
+    assert_false(overlays_of(s->editor)->onion);
 }
 
 /// A mark a frame, where the tip will be; the range's ends are the arc's.
@@ -111,8 +111,8 @@ SESSION_TEST(test_overlays_outlive_documents,
     session_key(s, 'O', MOD_SHIFT);
     editor_open(s->editor, &s->world);
     session_frame(s);
-    assert_true(s->editor->core.view.overlays.onion);
-    assert_true(s->editor->core.view.overlays.trail);
+    assert_true(overlays_of(s->editor)->onion);
+    assert_true(overlays_of(s->editor)->trail);
 }
 
 SESSION_TEST(test_the_ghost_is_the_pose_at_the_knot_in_hand, session_open(s, scene))
@@ -146,7 +146,7 @@ static float turn(const float a[2], const float b[2], const float c[2])
 /// How often a line crosses itself.
 static int crossings(const struct session *s, const struct draw_command *command)
 {
-    const float(*p)[2] = (const float(*)[2])(s->editor->core.list.points + 2 * command->first);
+    const float(*p)[2] = (const float(*)[2])(drawn_by(s->editor)->points + 2 * command->first);
     int count = 0;
     for (int i = 0; i + 1 < command->count; i++) {
         for (int k = i + 2; k + 1 < command->count; k++) {
@@ -162,7 +162,7 @@ SESSION_TEST(test_outlines_do_not_fold_from_any_side, session_open(s, scene))
     session_key(s, KEY_F4, 0);
     session_key(s, 'O', 0);
     for (int a = 0; a < 24; a++) {
-        s->editor->stage->camera.azimuth = 6.2831853f * (float)a / 24;
+        camera_of(s->editor)->azimuth = 6.2831853f * (float)a / 24;
         session_frame(s);
         const struct found skins = find(s, DRAW_LINE, theme()->spline[0]);
         assert_int_equal(skins.count, 8);
@@ -217,7 +217,7 @@ SESSION_TEST(test_a_character_has_a_ghost, open_bear(s))
     session_pull(s, "knot(swing,1)", 0, 8, 2);
     const struct found ghost = find(s, DRAW_LINE, color);
     assert_true(ghost.count >= 1);
-    const float *points = s->editor->core.list.points + 2 * ghost.command[0]->first;
+    const float *points = drawn_by(s->editor)->points + 2 * ghost.command[0]->first;
     float low = INFINITY, high = -INFINITY;
     for (int i = 0; i < ghost.command[0]->count; i++) {
         low = fminf(low, points[2 * i + 1]);

@@ -64,20 +64,20 @@ static int assert_texts_apart(const struct drawlist *list, int first, struct rec
     return count;
 }
 
-static void show(struct session *f) { drawlist_clear(&f->editor->core.list, f->editor->core.view.layout.window); }
+static void show(struct session *f) { drawlist_clear(drawn_by(f->editor), layout_of(f->editor)->window); }
 
 static void check_inspector(struct session *f)
 {
-    const struct spline *spline = core_active_spline(&f->editor->core);
+    const struct spline *spline = active_spline(f->editor);
     for (int selected = 0; selected < 2; selected++) {
         if (selected && spline->knot_count > 0) {
-            selection_set(&f->editor->core.focus.selection, spline->knots[0].id, true);
+            selection_set(selection_of(f->editor), spline->knots[0].id, true);
         }
         for (int page = 0; page < 3; page++) {
-            f->editor->inspector->sections.offset = 150.0f * (float)page;
+            sections(f->editor)->offset = 150.0f * (float)page;
             show(f);
             inspector_show(f->editor->inspector, false);
-            assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.view.layout.inspector) > 15);
+            assert_true(assert_texts_apart(drawn_by(f->editor), 0, layout_of(f->editor)->inspector) > 15);
         }
     }
 }
@@ -88,13 +88,13 @@ static void check_status(struct session *f)
         "a sentence that goes on and on about what is wrong with this file until there is no room left for it "
         "in the line, whatever the width of the window may be, and then some more";
     static const char *const messages[] = {"", "Saved.", long_message};
-    f->editor->core.status.told = (struct figures){1234, 123456};
+    tell_figures(f->editor, 1234, 123456);
     transport_advance(&f->editor->core, 1);
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
-        core_message(&f->editor->core, true, "%s", messages[m]);
+        tell(f->editor, true, "%s", messages[m]);
         show(f);
         transport_show(&f->editor->status, &f->editor->core, NULL);
-        const int texts = assert_texts_apart(&f->editor->core.list, 0, f->editor->core.view.layout.status);
+        const int texts = assert_texts_apart(drawn_by(f->editor), 0, layout_of(f->editor)->status);
         // The figures and the scene's name may give way to a long message.
         assert_in_range(texts, messages[m] == long_message ? 7 : 9, 9);
     }
@@ -111,20 +111,19 @@ static void check_dialogs(struct session *f)
         if (kind == 0) dialog_open(f->editor->dialogs, DIALOG_OPEN, "");
         if (kind == 1) dialogs_save_as(f->editor->dialogs, &f->editor->core);
         if (kind == 2) dialogs_leave(f->editor->dialogs, &f->editor->core, &quit);
-        if (kind == 3)
-            dialogs_offer_recovery(f->editor->dialogs, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
+        if (kind == 3) offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
             dialogs_show(f->editor->dialogs, &f->editor->core);
-            assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.view.layout.window) >= 4);
-            f->editor->dialogs->dialog.awaited = REQUEST_SAVE;
+            assert_true(assert_texts_apart(drawn_by(f->editor), 0, layout_of(f->editor)->window) >= 4);
+            dialog_of(f->editor)->awaited = REQUEST_SAVE;
             panel_answer(
                 f, REQUEST_SAVE, false,
                 "/a/long/path/to/a/folder/that/is/not/there/at/all/scene.json: expected a folder that exists, got "
                 "one that does not; and the disk is full besides, so that this needs a good many lines to be told");
         }
         session_key(f, KEY_ESCAPE, 0);
-        assert_int_equal(f->editor->dialogs->dialog.kind, DIALOG_NONE);
+        assert_int_equal(asked(f->editor), DIALOG_NONE);
     }
 }
 
@@ -151,10 +150,10 @@ TEST(test_no_text_leaves_its_panel_or_overlaps)
         int calls = 0;
         struct session f;
         panel_open(&f, scenes[i % 2], sizes[i / 2][0], sizes[i / 2][1]);
-        core_set_path(&f.editor->core, i % 2 ? "a scene with a name that is rather too long to show.json" : "x.json");
-        dialogs_set_files(f.editor->dialogs, &(struct dialog_files){.list = list_names, .user = &calls});
+        set_path(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x.json");
+        list_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
         for (int s = 0; s < f.document->spline_count; s++) {
-            core_activate(&f.editor->core, s);
+            activate(f.editor, s);
             check_inspector(&f);
         }
         check_status(&f);
@@ -174,23 +173,23 @@ static void expect_request(struct session *f, enum request_kind kind, const char
 
 static void answer_saved(struct session *f, enum request_kind kind, const char *path)
 {
-    core_set_path(&f->editor->core, path);
+    set_path(f->editor, path);
     panel_answer(f, kind, true, "");
 }
 
 SESSION_TEST(test_save_as_stays_until_it_succeeds, panel_open(s, small_scene, 1280, 720))
 {
-    core_set_path(&s->editor->core, "");
+    set_path(s->editor, "");
     session_key(s, 'S', MOD_CTRL); // has no file yet, so it asks
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
-    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "untitled.json");
+    assert_int_equal(asked(s->editor), DIALOG_SAVE_AS);
+    assert_string_equal(typed(s->editor), "untitled.json");
     panel_type(s, "no/such/dog");
     session_key(s, KEY_ENTER, 0);
     expect_request(s, REQUEST_SAVE_AS, "no/such/dog.json");
     panel_answer(s, REQUEST_SAVE_AS, false, "no/such/dog.json: there is no such folder");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
-    assert_non_null(strstr(s->editor->dialogs->dialog.error, "no such folder"));
-    assert_string_equal(s->editor->core.message.text, "");
+    assert_int_equal(asked(s->editor), DIALOG_SAVE_AS);
+    assert_non_null(strstr(asked_error(s->editor), "no such folder"));
+    assert_string_equal(said(s->editor), "");
     for (int i = 0; i < 20; i++) session_key(s, KEY_BACKSPACE, 0);
     session_key(s, KEY_ENTER, 0); // nothing typed
     expect_request(s, REQUEST_NONE, "");
@@ -198,21 +197,21 @@ SESSION_TEST(test_save_as_stays_until_it_succeeds, panel_open(s, small_scene, 12
     session_key(s, KEY_ENTER, 0);
     expect_request(s, REQUEST_SAVE_AS, "untitled.json");
     answer_saved(s, REQUEST_SAVE_AS, "pets/dog.json");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    assert_int_equal(asked(s->editor), DIALOG_NONE);
     session_key(s, 'S', MOD_CTRL);
     expect_request(s, REQUEST_SAVE, "");
     session_key(s, 'S', MOD_CTRL | MOD_SHIFT); // starts from where the file is, not from its bare name
-    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "pets/dog.json");
+    assert_string_equal(typed(s->editor), "pets/dog.json");
 }
 
 /// Changes something, then asks to quit.
 static void open_unsaved(struct session *f, bool has_path)
 {
     panel_open(f, small_scene, 1280, 720);
-    core_set_path(&f->editor->core, has_path ? "pets/dog.json" : "");
+    set_path(f->editor, has_path ? "pets/dog.json" : "");
     panel_click(f, "mode.real");
     session_key(f, 'Q', MOD_CTRL);
-    assert_int_equal(f->editor->dialogs->dialog.kind, DIALOG_UNSAVED);
+    assert_int_equal(asked(f->editor), DIALOG_UNSAVED);
 }
 
 TEST(test_quitting_asks_for_unsaved_work)
@@ -220,7 +219,7 @@ TEST(test_quitting_asks_for_unsaved_work)
     struct session f;
     open_unsaved(&f, true);
     session_key(&f, KEY_ESCAPE, 0);
-    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_NONE);
+    assert_int_equal(asked(f.editor), DIALOG_NONE);
     expect_request(&f, REQUEST_NONE, "");
     session_key(&f, 'Q', MOD_CTRL);
     panel_type(&f, "d");
@@ -248,7 +247,7 @@ TEST(test_quit_waits_for_the_save)
     expect_request(&f, REQUEST_NONE, "");
     panel_answer(&f, REQUEST_SAVE, false, "dog.json: the disk is full");
     expect_request(&f, REQUEST_NONE, ""); // the work in memory stays
-    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_UNSAVED);
+    assert_int_equal(asked(f.editor), DIALOG_UNSAVED);
     panel_type(&f, "s");
     expect_request(&f, REQUEST_SAVE, "");
     history_mark_saved(f.history);
@@ -258,8 +257,8 @@ TEST(test_quit_waits_for_the_save)
 
     open_unsaved(&f, false); // never saved: first asks where
     panel_type(&f, "s");
-    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
-    assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "untitled.json"); // and the S is no part of the name
+    assert_int_equal(asked(f.editor), DIALOG_SAVE_AS);
+    assert_string_equal(typed(f.editor), "untitled.json"); // and the S is no part of the name
     session_key(&f, KEY_ENTER, 0);
     expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
     answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
@@ -286,9 +285,9 @@ TEST(test_open_completes_paths)
     int calls = 0;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
-    dialogs_set_files(f.editor->dialogs, &(struct dialog_files){.list = list_names, .user = &calls});
+    list_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
     session_key(&f, 'O', MOD_CTRL);
-    struct dialog *dialog = &f.editor->dialogs->dialog;
+    struct dialog *dialog = dialog_of(f.editor);
     assert_int_equal(dialog->match_count, 5);
     panel_type(&f, "fi");
     assert_int_equal(dialog->match_count, 4); // also in the middle of a name, but after those that begin so
@@ -332,10 +331,10 @@ SESSION_TEST(test_dialog_takes_every_key, panel_open(s, small_scene, 1280, 720))
     session_key(s, 'Z', MOD_CTRL);
     session_key(s, KEY_F1, 0);
     session_key(s, KEY_DELETE, 0);
-    assert_int_equal(s->editor->core.view.look, LOOK_WIGGLY);
-    assert_false(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
+    assert_int_equal(look(s->editor), LOOK_WIGGLY);
+    assert_false(looked_up(s->editor) == LOOKUP_KEYS);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
-    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "vim. ");
+    assert_string_equal(typed(s->editor), "vim. ");
 }
 
 /// The figures at the right must not cost a redraw every frame.
@@ -344,7 +343,7 @@ SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280
     double last = 0;
     int changes = 0;
     for (int frame = 0; frame < 120; frame++) {
-        s->editor->core.status.told = (struct figures){50 + frame % 7, 200 + frame};
+        tell_figures(s->editor, 50 + frame % 7, 200 + frame);
         transport_advance(&s->editor->core, 1.0 / 60);
         changes += s->editor->core.status.shown.solve_us != last;
         last = s->editor->core.status.shown.solve_us;
@@ -357,7 +356,7 @@ SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280
 SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_open(s, small_scene, 1280, 720))
 {
     static const float sizes[][2] = {{390, 792}, {360, 560}, {768, 972}};
-    const struct layout *l = &s->editor->core.view.layout;
+    const struct layout *l = layout_of(s->editor);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         const struct rect *const panels[] = {&l->stage, &l->curves, &l->inspector, &l->status};
         float y = 0;
@@ -390,7 +389,7 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
         s->finger = finger;
         session_move(s, knot[0] + 14, knot[1]);
         session_frame(s);
-        assert_int_equal(s->editor->core.input.hover.thing == &thing_knot, finger);
+        assert_int_equal(hovered(s->editor) == &thing_knot, finger);
     }
     editor_resize(s->editor, 792, 390, 1);
     assert_true(l->inspector.x > 400);
@@ -398,8 +397,8 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
 
 SESSION_TEST(test_a_drag_beside_its_controls_scrolls_the_inspector, panel_open(s, small_scene, 390, 792))
 {
-    struct ui_list *scroll = &s->editor->inspector->sections;
-    session_move(s, 30, s->editor->core.view.layout.inspector.y + 150);
+    struct ui_list *scroll = sections(s->editor);
+    session_move(s, 30, layout_of(s->editor)->inspector.y + 150);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, -80, 4);
     assert_near(scroll->offset, 80, 0);
@@ -415,14 +414,14 @@ SESSION_TEST(test_a_drag_beside_its_controls_scrolls_the_inspector, panel_open(s
 SESSION_TEST(test_a_message_takes_the_whole_of_a_narrow_status_line, panel_open(s, small_scene, 390, 792))
 {
     assert_true(session_shows(s, "Auto-key"));
-    core_message(&s->editor->core, false, "%s", "Saved as walk.json");
+    tell(s->editor, false, "%s", "Saved as walk.json");
     session_frame(s);
     assert_true(session_shows(s, "Saved as walk.json"));
     assert_false(session_shows(s, "Auto-key"));
     session_move(s, 20, 780); // over the play button
     session_click_here(s, 1);
-    assert_false(s->editor->core.view.playback.playing);
+    assert_false(playback_of(s->editor)->playing);
     assert_true(session_shows(s, "Auto-key"));
     session_click_here(s, 1);
-    assert_true(s->editor->core.view.playback.playing);
+    assert_true(playback_of(s->editor)->playing);
 }

@@ -106,7 +106,7 @@ SESSION_TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys, open_tail(s
     assert_one_step(s, placed); // both nudges
     session_key(s, KEY_PAGE_DOWN, MOD_ALT);
     assert_near(pin_of(s, 0)->frame, 11, 0);
-    assert_near(core_frame(&s->editor->core), 11, 0);
+    assert_near(shown_frame(s->editor), 11, 0);
     session_move(s, 2, 2);
     session_frame(s);
     for (int step = 0; step < 9; step++) session_key(s, KEY_RIGHT, 0);
@@ -117,7 +117,7 @@ SESSION_TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys, open_tail(s
     assert_near(pin_of(s, 1)->frame, 20, 0);
     assert_near(pin_of(s, 1)->to[1], pin_of(s, 0)->to[1], 0);
     session_type(s, ",");
-    assert_near(core_frame(&s->editor->core), 11, 0);
+    assert_near(shown_frame(s->editor), 11, 0);
     session_key(s, KEY_DELETE, 0);
     assert_int_equal(pins_of(s), 1);
     assert_near(pin_of(s, 0)->frame, 20, 0);
@@ -139,12 +139,12 @@ SESSION_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler, open_tail(s
     session_pull(s, "pintime(tail,0)", to[0] - from[0], 0, 4);
     session_release(s, BUTTON_LEFT);
     assert_near(pin_of(s, 0)->frame, 25, 0);
-    assert_near(core_frame(&s->editor->core), 25, 0);
+    assert_near(shown_frame(s->editor), 25, 0);
     assert_one_step(s, moved);
     float mark[2];
     session_where(s, "pintime(tail,0)", mark); // it hangs over the ruler's edge, and is taken there, too
     session_move(s, mark[0], mark[1] + 4);
-    while (s->editor->core.message.text[0]) session_frame(s);
+    while (said(s->editor)[0]) session_frame(s);
     session_frame(s);
     assert_non_null(shown_text(s->editor,
                                "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, "
@@ -165,8 +165,8 @@ SESSION_TEST(test_the_selected_mark_is_taken_first, open_tail(s))
     session_key(s, 'H', 0);
     session_key(s, KEY_ESCAPE, 0);
     assert_int_equal(pins_of(s), 2);
-    s->editor->curves->view.frame0 -= 400; // frames are so narrow that both marks are in reach
-    s->editor->curves->view.frame1 += 400;
+    plot_of(s->editor)->frame0 -= 400; // frames are so narrow that both marks are in reach
+    plot_of(s->editor)->frame1 += 400;
     session_frame(s);
     for (int m = 0; m < 2; m++) session_where(s, m ? "pintime(tail,1)" : "pintime(tail,0)", marks[m]);
     assert_true(marks[1][0] - marks[0][0] > 1 && marks[1][0] - marks[0][0] < 5);
@@ -175,13 +175,13 @@ SESSION_TEST(test_the_selected_mark_is_taken_first, open_tail(s))
             s->editor->core.focus.pin = (struct pin_selection){.any = chosen >= 0, .id = pin_of(s, chosen > 0)->id};
             session_move(s, marks[m][0], marks[m][1]);
             session_frame(s);
-            assert_ptr_equal(s->editor->core.input.hover.thing, &thing_pin_time);
+            assert_ptr_equal(hovered(s->editor), &thing_pin_time);
             assert_int_equal(s->editor->core.input.hover.pin, pin_of(s, chosen >= 0 ? chosen : m)->id);
         }
     }
     session_move(s, marks[1][0] + 20, marks[1][1]);
     session_frame(s);
-    assert_ptr_not_equal(s->editor->core.input.hover.thing, &thing_pin_time);
+    assert_ptr_not_equal(hovered(s->editor), &thing_pin_time);
 }
 
 /// A pin that throws a rig far makes its curves high: they come into sight.
@@ -193,7 +193,7 @@ SESSION_TEST(test_the_curves_follow_a_pin, panel_open_models(s, creature))
     session_release(s, BUTTON_LEFT);
     assert_int_equal(pins_of(s), 1);
     for (int frame = 0; frame < 90; frame++) session_frame(s);
-    const struct plotted *view = &s->editor->curves->view;
+    const struct plotted *view = plot_of(s->editor);
     for (int i = 0; i < 2; i++) {
         for (int sample = 0; sample <= 60; sample++) {
             const double total = s->world.evaluation->curves[i].total[sample];
@@ -209,7 +209,7 @@ SESSION_TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer, 
     const char *before = session_saved(s);
     session_point(s, "character(c,0.5,0.9)");
     session_frame(s);
-    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_point);
+    assert_ptr_equal(hovered(s->editor), &thing_point);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 25, 8, 4);
     session_release(s, BUTTON_LEFT);
@@ -227,7 +227,7 @@ SESSION_TEST(test_what_hardly_moves_does_not_light_up, panel_open_models(s, crea
     session_frame(s);
     session_point(s, "character(c,0.4,0.01)");
     session_frame(s);
-    assert_null(s->editor->core.input.hover.thing);
+    assert_null(hovered(s->editor));
 }
 
 /// Without a mouse: H pins what moves most, Tab leads to its numbers.
@@ -260,7 +260,7 @@ SESSION_TEST(test_the_curves_follow_a_typed_place, panel_open_models(s, creature
     panel_enter(s, "pin.y", "3");
     for (int frame = 0; frame < 90; frame++) session_frame(s);
     const wiggly_curve *curve = s->world.evaluation->curves;
-    for (int sample = 0; sample <= 60; sample++) assert_true(curve->total[sample] < s->editor->curves->view.value1);
+    for (int sample = 0; sample <= 60; sample++) assert_true(curve->total[sample] < plot_of(s->editor)->value1);
 }
 
 SESSION_TEST(test_the_inspector_lists_pins_and_takes_numbers, open_tail(s))

@@ -6,7 +6,7 @@ static const char scene[] =
     "{\"frames\": [0, 100], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
     "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 1}]}]}";
 
-static double frame_of(const struct session *session) { return core_frame(&session->editor->core); }
+static double frame_of(const struct session *session) { return shown_frame(session->editor); }
 
 /// One picture after `dt` seconds.
 static void pass(struct session *session, double dt) { editor_advance(session->editor, dt); }
@@ -14,7 +14,7 @@ static void pass(struct session *session, double dt) { editor_advance(session->e
 static void open_at(struct session *session, double frame)
 {
     panel_open(session, scene, 1280, 720);
-    playback_seek(&session->editor->core, frame);
+    seek(session->editor, frame);
 }
 
 SESSION_TEST(test_real_time, open_at(s, 10))
@@ -30,17 +30,17 @@ SESSION_TEST(test_speed, open_at(s, 10))
     static const double slower[] = {0.5, 0.25, 0.1, 0.1}, faster[] = {0.25, 0.5, 1, 2, 4, 4};
     for (int i = 0; i < 4; i++) {
         session_type(s, "-");
-        assert_near(s->editor->core.view.playback.speed, slower[i], 0);
+        assert_near(playback_of(s->editor)->speed, slower[i], 0);
     }
-    s->editor->core.view.playback.playing = true;
+    playback_of(s->editor)->playing = true;
     pass(s, 1);
     assert_near(frame_of(s), 12.4, 1e-9);
     for (int i = 0; i < 6; i++) {
         session_type(s, i % 2 ? "+" : "=");
-        assert_near(s->editor->core.view.playback.speed, faster[i], 0);
+        assert_near(playback_of(s->editor)->speed, faster[i], 0);
     }
-    playback_seek(&s->editor->core, 0);
-    s->editor->core.view.playback.playing = true;
+    seek(s->editor, 0);
+    playback_of(s->editor)->playing = true;
     pass(s, 0.5);
     assert_near(frame_of(s), 48, 1e-9);
     assert_true(history_is_saved(s->history)); // a matter of the view
@@ -51,32 +51,32 @@ SESSION_TEST(test_dropped_frames, open_at(s, 0))
 {
     session_key(s, KEY_SPACE, 0);
     for (int i = 0; i < 119; i++) pass(s, 1.0 / 60);
-    assert_int_equal(s->editor->core.view.playback.dropped, 0);
+    assert_int_equal(playback_of(s->editor)->dropped, 0);
     assert_near(frame_of(s), 48, 1e-9);
     pass(s, 0.25); // from 48 to 54: 49 … 53 were not shown
-    assert_int_equal(s->editor->core.view.playback.dropped, 5);
+    assert_int_equal(playback_of(s->editor)->dropped, 5);
     pass(s, 0.3125); // to 61.5: nor 55 … 60
-    assert_int_equal(s->editor->core.view.playback.dropped, 11);
+    assert_int_equal(playback_of(s->editor)->dropped, 11);
     session_key(s, KEY_SPACE, 0);
     session_key(s, KEY_SPACE, 0); // counted from the start of playing
-    assert_int_equal(s->editor->core.view.playback.dropped, 0);
+    assert_int_equal(playback_of(s->editor)->dropped, 0);
 }
 
 /// What a display of 60 pictures a second cannot show at four times the speed was not dropped.
 SESSION_TEST(test_fast_is_not_dropped, open_at(s, 0))
 {
-    s->editor->core.view.playback.speed = 4;
+    playback_of(s->editor)->speed = 4;
     session_key(s, KEY_SPACE, 0);
     for (int i = 0; i < 200; i++) pass(s, 1.0 / 60);
-    assert_int_equal(s->editor->core.view.playback.dropped, 0);
+    assert_int_equal(playback_of(s->editor)->dropped, 0);
 }
 
 SESSION_TEST(test_part, open_at(s, 20))
 {
     session_type(s, "[");
-    playback_seek(&s->editor->core, 30);
+    seek(s->editor, 30);
     session_type(s, "]");
-    playback_seek(&s->editor->core, 80);
+    seek(s->editor, 80);
     session_key(s, KEY_SPACE, 0); // from outside it begins at the start
     assert_near(frame_of(s), 20 + 0.4, 1e-9);
     pass(s, 0.25);
@@ -86,21 +86,14 @@ SESSION_TEST(test_part, open_at(s, 20))
     session_key(s, 'L', MOD_CTRL);
     pass(s, 1);
     assert_near(frame_of(s), 30, 1e-9); // no loop: stops at its end
-    assert_false(s->editor->core.view.playback.playing);
+    assert_false(playback_of(s->editor)->playing);
     session_key(s, KEY_SPACE, 0);
     assert_near(frame_of(s), 20.4, 1e-9);
 }
 
-static float x_of(const struct session *s, double frame)
-{
-    const struct rect *plot = &s->editor->core.view.layout.plot;
-    const struct plotted *view = &s->editor->curves->view;
-    return plot->x + plot->w * (float)((frame - view->frame0) / (view->frame1 - view->frame0));
-}
-
 static void ruler_at(struct session *session, double frame)
 {
-    session_move(session, x_of(session, frame), session->editor->core.view.layout.ruler.y + 10);
+    session_move(session, x_of(session->editor, frame), layout_of(session->editor)->ruler.y + 10);
 }
 
 static void assert_range(const struct session *session, double first, double last)
@@ -141,13 +134,13 @@ SESSION_TEST(test_no_part, open_at(s, 40))
 {
     session_type(s, "]");
     assert_range(s, 0, 40);
-    playback_seek(&s->editor->core, 60);
+    seek(s->editor, 60);
     session_type(s, "["); // after its end: to the scene's end
     assert_range(s, 60, 100);
-    playback_seek(&s->editor->core, 0);
+    seek(s->editor, 0);
     session_type(s, "[");
     assert_range(s, 0, 100);
-    assert_false(playback_is_part(&s->editor->core));
+    assert_false(plays_part(s->editor));
 }
 
 /// Scrubbing shows frames exactly, and what lies between them with Ctrl, from the press on.
@@ -156,9 +149,9 @@ SESSION_TEST(test_scrubbing, open_at(s, 0))
     for (double frame = 7; frame < 90; frame += 13) {
         ruler_at(s, frame + 0.3);
         session_press(s, BUTTON_LEFT, 1);
-        assert_true(s->editor->core.view.playback.position == 2 * frame); // bit for bit a sample
+        assert_true(playback_of(s->editor)->position == 2 * frame); // bit for bit a sample
         ruler_at(s, frame + 1.4);
-        assert_true(s->editor->core.view.playback.position == 2 * (frame + 1));
+        assert_true(playback_of(s->editor)->position == 2 * (frame + 1));
         session_release(s, BUTTON_LEFT);
     }
     s->mods = MOD_CTRL;
@@ -180,21 +173,21 @@ static void click_on(struct session *session, const char *control, enum event_bu
 SESSION_TEST(test_controls, open_at(s, 10))
 {
     click_on(s, "widget(play)", BUTTON_LEFT);
-    assert_true(s->editor->core.view.playback.playing);
+    assert_true(playback_of(s->editor)->playing);
     click_on(s, "widget(play)", BUTTON_LEFT);
-    assert_false(s->editor->core.view.playback.playing);
+    assert_false(playback_of(s->editor)->playing);
     click_on(s, "widget(loop)", BUTTON_LEFT);
-    assert_false(s->editor->core.view.playback.looping);
+    assert_false(playback_of(s->editor)->looping);
     click_on(s, "widget(speed)", BUTTON_LEFT);
-    assert_near(s->editor->core.view.playback.speed, 2, 0);
+    assert_near(playback_of(s->editor)->speed, 2, 0);
     s->mods = MOD_SHIFT;
     click_on(s, "widget(speed)", BUTTON_LEFT);
     click_on(s, "widget(speed)", BUTTON_LEFT);
-    assert_near(s->editor->core.view.playback.speed, 0.5, 0);
+    assert_near(playback_of(s->editor)->speed, 0.5, 0);
     s->mods = 0;
     session_wheel(s, -1);
-    assert_near(s->editor->core.view.playback.speed, 0.25, 0);
+    assert_near(playback_of(s->editor)->speed, 0.25, 0);
     click_on(s, "widget(speed)", BUTTON_RIGHT);
-    assert_near(s->editor->core.view.playback.speed, 1, 0);
+    assert_near(playback_of(s->editor)->speed, 1, 0);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
 }

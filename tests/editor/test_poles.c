@@ -12,13 +12,13 @@ static const char scene[] =
 
 static double value(const struct session *f, enum parameter which)
 {
-    return f->document->splines[f->editor->core.focus.active]->parameter[which].value;
+    return f->document->splines[active(f->editor)]->parameter[which].value;
 }
 
 static void open_poles(struct session *f, int spline)
 {
     panel_open(f, scene, 1280, 1400);
-    core_activate(&f->editor->core, spline);
+    activate(f->editor, spline);
     panel_click(f, "section.poles");
     session_frame(f);
 }
@@ -27,7 +27,7 @@ static void open_poles(struct session *f, int spline)
 static void drag(struct session *f, const char *name, float dx, float dy)
 {
     float x, y;
-    assert_true(inspector_target(f->editor->inspector, name, &x, &y));
+    assert_true(widget_at(f->editor, name, &x, &y));
     panel_press(f, name, 1);
     session_move(f, x + dx, y + dy);
     session_frame(f);
@@ -94,13 +94,13 @@ SESSION_TEST(test_tracks_stay, open_poles(s, 3))
 
 SESSION_TEST(test_arrow_keys_move_a_focused_pole, open_poles(s, 0))
 {
-    s->editor->inspector->ui.focus = panel_id(s, "pole.centre");
+    inspector_of(s->editor)->focus = panel_id(s, "pole.centre");
     session_key(s, KEY_RIGHT, 0);
     session_key(s, KEY_RIGHT, 0);
     assert_near(value(s, PARAMETER_FREQUENCY), 1.1, 1e-12);
     session_key(s, 'Z', MOD_CTRL);
     assert_near(value(s, PARAMETER_FREQUENCY), 1, 0);
-    s->editor->inspector->ui.focus = panel_id(s, "pole.lower");
+    inspector_of(s->editor)->focus = panel_id(s, "pole.lower");
     session_key(s, KEY_LEFT, 0);
     assert_near(value(s, PARAMETER_BANDWIDTH), 0.133, 1e-12);
 }

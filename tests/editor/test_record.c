@@ -11,7 +11,7 @@ static const char scene[] =
 
 enum { JOINTS = 24, X = 12, DRAGGED = 60, WATCHED = 150 };
 
-static float joint_x(const struct session *s, int n) { return s->editor->stage->strands[0].pose.matrix[n][X]; }
+static float joint_x(const struct session *s, int n) { return posed(s->editor)->matrix[n][X]; }
 
 TEST(test_few_knots_keep_to_the_way)
 {
@@ -84,7 +84,7 @@ TEST(test_recorded_is_what_was_seen)
     for (int i = DRAGGED + 14; i < WATCHED; i++) assert_near(tip[i], live_tip[i], 0.15 * most);
     session_key(&s, KEY_SPACE, 0);
     for (int i = 5; i < DRAGGED; i += 5) { // from its first half-second on
-        s.editor->core.view.playback.position = 24.0 * (i + 1) / 60;
+        playback_of(s.editor)->position = 24.0 * (i + 1) / 60;
         session_frame(&s);
         assert_near(joint_x(&s, 0), live_base[i], 0.01);
         assert_near(joint_x(&s, JOINTS) - joint_x(&s, 0), live_tip[i], 0.1 * most);
@@ -161,14 +161,13 @@ TEST(test_a_way_without_a_channel_gets_one)
     assert_int_equal(document->splines[made->spline]->parameter[PARAMETER_EQUILIBRIUM].track,
                      tail->position[1].track);
     assert_near(document->splines[made->spline]->parameter[PARAMETER_FREQUENCY].value, 1.2, 0);
-    assert_non_null(
-        strstr(s.editor->core.message.text, " knots recorded. New spline tail up: the tail swings after tail y."));
+    assert_said(s.editor, " knots recorded. New spline tail up: the tail swings after tail y.");
     session_key(&s, KEY_SPACE, 0);
     float most = 0; // it swings: the tip's height above the base changes
     for (int f = 0; f < 90; f++) {
-        s.editor->core.view.playback.position = f;
+        playback_of(s.editor)->position = f;
         session_frame(&s);
-        const struct pose *pose = &s.editor->stage->strands[0].pose;
+        const struct pose *pose = posed(s.editor);
         static float first;
         const float rise = pose->matrix[JOINTS][13] - pose->matrix[0][13];
         if (f == 0) first = rise;

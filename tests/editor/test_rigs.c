@@ -14,7 +14,7 @@ SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, "{\"frames\": [0, 48]
     session_move(s, 300, 200);
     session_key(s, 'A', 0);
     float x, y;
-    assert_true(inspector_target(s->editor->inspector, "item.tail", &x, &y));
+    assert_true(widget_at(s->editor, "item.tail", &x, &y));
     assert_true(x > 300 && x < 600 && y > 200 && y < 260); // at the pointer
     session_key(s, KEY_ENTER, 0);
     assert_int_equal(document_count_rigs(s->document, RIG_TAIL), 1);
@@ -52,8 +52,8 @@ SESSION_TEST(test_a_rig_goes_with_its_splines_or_without, panel_open_models(s, b
 {
     const char *before = session_saved(s);
     session_key(s, KEY_DELETE, MOD_SHIFT);
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
-    assert_non_null(strstr(s->editor->dialogs->dialog.question.title, "Remove bear"));
+    assert_int_equal(asked(s->editor), DIALOG_ASK);
+    assert_non_null(strstr(dialog_of(s->editor)->question.title, "Remove bear"));
     session_key(s, KEY_ESCAPE, 0);
     assert_saved(s, before);
     session_key(s, KEY_DELETE, MOD_SHIFT);
@@ -69,7 +69,7 @@ SESSION_TEST(test_a_rig_goes_with_its_splines_or_without, panel_open_models(s, b
     assert_string_equal(s->document->splines[0]->name, "t");
     assert_one_step(s, before);
     session_key(s, KEY_DELETE, MOD_SHIFT);
-    assert_non_null(strstr(s->editor->core.message.text, "nothing on the stage"));
+    assert_said(s->editor, "nothing on the stage");
 }
 
 /// A model goes with the chains on it; what followed its joints keeps its place.
@@ -124,14 +124,14 @@ SESSION_TEST(test_a_file_is_asked_for, panel_open(s, "{\"frames\": [0, 48], \"sp
     const char *before = session_saved(s);
     session_key(s, 'A', 0);
     panel_click(s, "item.file");
-    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ADD);
+    assert_int_equal(asked(s->editor), DIALOG_ADD);
     session_type(s, "no.glb");
     session_key(s, KEY_ENTER, 0);
     const struct request request = editor_take_request(s->editor);
     assert_int_equal(request.kind, REQUEST_ADD);
     assert_string_equal(request.path, "no.glb");
     panel_answer(s, REQUEST_ADD, false, "no.glb: cannot be read");
-    assert_string_equal(s->editor->dialogs->dialog.error, "no.glb: cannot be read");
+    assert_string_equal(asked_error(s->editor), "no.glb: cannot be read");
     assert_saved(s, before);
 }
 

@@ -49,7 +49,7 @@ static int list_recent(void *user, struct dialog_recent *files, int most)
 
 // --- screens ------------------------------------------------------------------------------------------------------------
 
-static void open_start(struct session *s) { dialogs_welcome(s->editor->dialogs); }
+static void open_start(struct session *s) { welcome(s->editor); }
 
 static void open_drag(struct session *s)
 {
@@ -96,8 +96,7 @@ static void open_quit(struct session *s)
 
 static void open_recover(struct session *s)
 {
-    dialogs_offer_recovery(s->editor->dialogs,
-                           &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 2});
+    offer_recovery(s->editor, &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 2});
 }
 
 static void open_changed(struct session *s)
@@ -108,14 +107,14 @@ static void open_changed(struct session *s)
 /// A long name beside the figures.
 static void open_busy(struct session *s)
 {
-    s->editor->core.status.told = (struct figures){0, 8465};
-    core_set_path(&s->editor->core, "/home/somebody/a scene with a name that is rather too long to show.json");
+    tell_figures(s->editor, 0, 8465);
+    set_path(s->editor, "/home/somebody/a scene with a name that is rather too long to show.json");
 }
 
 static void open_failed(struct session *s)
 {
     session_key(s, 'S', MOD_CTRL | MOD_SHIFT);
-    s->editor->dialogs->dialog.awaited = REQUEST_SAVE_AS;
+    dialog_of(s->editor)->awaited = REQUEST_SAVE_AS;
     panel_answer(s, REQUEST_SAVE_AS, false, long_message);
 }
 
@@ -130,7 +129,7 @@ static void open_add(struct session *s) { session_key(s, 'A', 0); }
 static void open_knots(struct session *s)
 {
     session_click(s, "knot(sway,1)");
-    inspector_unfold(s->editor->inspector, "section.poles");
+    unfold(s->editor, "section.poles");
 }
 
 static void open_all_knots(struct session *s)
@@ -153,9 +152,9 @@ static void open_history(struct session *s)
 
 static void open_message(struct session *s)
 {
-    core_set_path(&s->editor->core, "/home/somebody/a scene with a name that is rather too long to show.json");
-    core_message(&s->editor->core, true, "%s", long_message);
-    s->editor->core.status.told = (struct figures){1234, 123456};
+    set_path(s->editor, "/home/somebody/a scene with a name that is rather too long to show.json");
+    tell(s->editor, true, "%s", long_message);
+    tell_figures(s->editor, 1234, 123456);
 }
 
 static void open_overlays(struct session *s)
@@ -184,18 +183,18 @@ static const struct screen {
 
 static int problems_of(struct session *s, const char *where, bool whole)
 {
-    const struct layout *layout = &s->editor->core.view.layout;
+    const struct layout *layout = layout_of(s->editor);
     struct legible_ground ground = {layout->window, layout->stage, whole};
-    return legible_problems(&s->editor->core.list, &ground, where);
+    return legible_problems(drawn_by(s->editor), &ground, where);
 }
 
 /// The panel scrolled all the way down, page by page.
 static int walk_inspector(struct session *s, const char *where, bool whole)
 {
-    struct ui_list *scroll = &s->editor->inspector->sections;
+    struct ui_list *scroll = sections(s->editor);
     int problems = 0;
     for (int page = 0; page < 8; page++) {
-        scroll->offset = 0.5f * s->editor->core.view.layout.inspector.h * (float)page;
+        scroll->offset = 0.5f * layout_of(s->editor)->inspector.h * (float)page;
         session_frame(s);
         problems += problems_of(s, where, whole);
     }
@@ -210,7 +209,7 @@ static int walk(const char *scene, const struct screen *screen, const float size
              (double)size[1], (double)size[2]);
     session_open(&s, scene);
     editor_resize(s.editor, size[0], size[1], size[2]);
-    dialogs_set_files(s.editor->dialogs, &(struct dialog_files){.list = list_names, .recent = list_recent});
+    list_files(s.editor, &(struct dialog_files){.list = list_names, .recent = list_recent});
     session_frame(&s);
     screen->open(&s);
     session_frame(&s);

@@ -13,12 +13,11 @@ static const struct knot *knot(const struct session *s, int spline, int k)
     return &s->document->splines[spline]->knots[k];
 }
 
-static int count(const struct session *s) { return selected_count(&s->editor->core); }
+static int count(const struct session *s) { return selected(s->editor); }
 
 static float frames(const struct session *s, double count)
 {
-    return (float)(count * (double)(curves_x(s->editor->curves, &s->editor->core, 1) -
-                                    curves_x(s->editor->curves, &s->editor->core, 0)));
+    return (float)(count * (double)(x_of(s->editor, 1) - x_of(s->editor, 0)));
 }
 
 static void open_sheet(struct session *s, const char *scene)
@@ -29,7 +28,7 @@ static void open_sheet(struct session *s, const char *scene)
 
 SESSION_TEST(test_it_takes_its_room_from_the_curves, session_open(s, TWO))
 {
-    const struct layout *layout = &s->editor->core.view.layout;
+    const struct layout *layout = layout_of(s->editor);
     const struct rect plot = layout->plot;
     assert_near(layout->sheet.h, 0, 0);
     session_key(s, KEY_F7, 0);
@@ -49,7 +48,7 @@ SESSION_TEST(test_marks_are_dragged_in_time_alone, open_sheet(s, TWO))
     const char *original = session_saved(s);
     session_pull(s, "mark(up,1)", frames(s, 7), 40, 4);
     session_release(s, BUTTON_LEFT);
-    assert_int_equal(s->editor->core.focus.active, 1);
+    assert_int_equal(active(s->editor), 1);
     assert_near(knot(s, 1, 1)->frame, 47, 0);
     assert_near(knot(s, 1, 1)->value, -0.5, 0);
     assert_one_step(s, original);
@@ -80,7 +79,7 @@ SESSION_TEST(test_rows_choose_and_insert, open_sheet(s, TWO))
     session_move(s, s->x + frames(s, 10), s->y);
     session_press(s, BUTTON_LEFT, 1);
     session_release(s, BUTTON_LEFT);
-    assert_int_equal(s->editor->core.focus.active, 1);
+    assert_int_equal(active(s->editor), 1);
     const wiggly_value there = evaluation_at(s->world.evaluation, 1, 50);
     session_press(s, BUTTON_LEFT, 2);
     session_release(s, BUTTON_LEFT);
@@ -92,7 +91,7 @@ SESSION_TEST(test_rows_choose_and_insert, open_sheet(s, TWO))
     s->mods = MOD_SHIFT;
     session_click_here(s, 1);
     session_click_here(s, 2);
-    assert_int_equal(s->editor->core.focus.active, 0); // a pose, in the row below the pointer
+    assert_int_equal(active(s->editor), 0); // a pose, in the row below the pointer
     assert_int_equal(s->document->splines[0]->knot_count, 4);
     assert_true(knot(s, 0, 3)->has_phase);
 }
@@ -120,7 +119,7 @@ TEST(test_rows_scroll)
     session_key(&s, KEY_PAGE_UP, 0); // round to the last one
     session_frame(&s);
     session_point(&s, "mark(s9,0)");
-    selection_set(&s.editor->core.view.hidden, s.document->splines[9]->id, true);
+    selection_set(hidden_of(s.editor), s.document->splines[9]->id, true);
     session_frame(&s);
     assert_false(editor_target(s.editor, "mark(s9,0)", &x, &y, NULL));
     session_close(&s);

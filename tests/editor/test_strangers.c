@@ -127,13 +127,6 @@ static bool shows(const struct session *s, const char *bone)
     return editor_target(s->editor, target, &xy[0], &xy[1], &error);
 }
 
-static const char *selected(const struct session *s)
-{
-    int model;
-    const int node = bones_selected(&s->editor->core, &model);
-    return node < 0 ? "" : bones_character(&s->editor->core, model)->gltf.nodes[node].name;
-}
-
 /// On the screen, a place on the way from one joint to another.
 static void between(const struct session *s, const char *from, const char *to, float share, float xy[2])
 {
@@ -143,7 +136,7 @@ static void between(const struct session *s, const char *from, const char *to, f
     const float *b = model->pose->world[gltf_find_node(model->gltf, to)] + 12;
     float at[3];
     for (int k = 0; k < 3; k++) at[k] = model->root[12 + k] + a[k] + (b[k] - a[k]) * share;
-    const struct rect r = s->editor->core.view.layout.stage;
+    const struct rect r = layout_of(s->editor)->stage;
     assert_true(camera_project(stage->view.view, stage->view.projection, (float[]){r.x, r.y, r.w, r.h}, at, xy));
 }
 
@@ -165,7 +158,7 @@ SESSION_TEST(test_bones_that_carry_nothing_show_with_alt, open_written(s, write_
         move_between(s, "root", "foot_ik", 1);
         for (size_t i = 0; i < sizeof controls / sizeof *controls; i++) assert_int_equal(shows(s, controls[i]), alt);
         session_click_here(s, 1);
-        assert_string_equal(selected(s), alt ? "foot_ik" : "");
+        assert_string_equal(selected_bone(s->editor), alt ? "foot_ik" : "");
     }
 }
 
@@ -185,7 +178,7 @@ SESSION_TEST(test_a_press_takes_the_bone_whose_part_is_drawn_there, open_written
     for (size_t i = 0; i < sizeof presses / sizeof *presses; i++) {
         move_between(s, presses[i].from, presses[i].to, presses[i].share);
         session_click_here(s, 1);
-        assert_string_equal(selected(s), presses[i].bone);
+        assert_string_equal(selected_bone(s->editor), presses[i].bone);
     }
 }
 
@@ -219,7 +212,7 @@ static float size_of_ear(const struct session *s)
 SESSION_TEST(test_f_frames_the_selection_and_still_holds_frequency, open_written(s, write_rig))
 {
     session_click(s, "bone(ear_L_1)");
-    const float before = size_of_ear(s), height = s->editor->core.view.layout.stage.h;
+    const float before = size_of_ear(s), height = layout_of(s->editor)->stage.h;
     session_hold(s, 'F', ACTION_PRESS);
     session_key(s, KEY_UP, 0);
     session_hold(s, 'F', ACTION_RELEASE);
@@ -229,7 +222,7 @@ SESSION_TEST(test_f_frames_the_selection_and_still_holds_frequency, open_written
     session_key(s, 'F', 0);
     assert_true(size_of_ear(s) > 0.3f * height);
     const float framed = size_of_ear(s);
-    session_move(s, 2, s->editor->core.view.layout.plot.y + 20);
+    session_move(s, 2, layout_of(s->editor)->plot.y + 20);
     session_key(s, KEY_HOME, MOD_SHIFT);
     session_key(s, 'F', 0); // not over the curves
     assert_true(size_of_ear(s) < 0.5f * framed);
@@ -244,15 +237,14 @@ SESSION_TEST(test_the_wheel_zooms_to_the_pointer, open_written(s, write_rig))
         session_wheel(s, i == 0 ? 8 : -5);
         between(s, "foot", "leg", 0, xy);
         assert_true(i == 0 ? size_of_ear(s) > 2 * before : size_of_ear(s) < 0.6f * before);
-        assert_true(hypotf(xy[0] - s->x, xy[1] - s->y) < 0.03f * s->editor->core.view.layout.stage.h);
+        assert_true(hypotf(xy[0] - s->x, xy[1] - s->y) < 0.03f * layout_of(s->editor)->stage.h);
     }
 }
 
 /// Its eight targets are never seen at once: it is at most 3 m wide.
 SESSION_TEST(test_a_model_of_morphs_fills_the_view, open_written(s, write_runner))
 {
-    const struct rect figure = stage_figure(s->editor->stage, &s->editor->core),
-                      stage = s->editor->core.view.layout.stage;
+    const struct rect figure = stage_figure(s->editor->stage, &s->editor->core), stage = layout_of(s->editor)->stage;
     const struct stage_model *model = &s->editor->stage->view.models[0];
     assert_true(model->hi[0] - model->lo[0] < 3);
     assert_true(figure.w > 0.5f * stage.w || figure.h > 0.5f * stage.h);

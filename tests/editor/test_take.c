@@ -15,7 +15,7 @@ static void open_file(struct session *s, const char *path)
     s->document->folder = need_text("assets/scenes");
     assert_done(models_update(s->work.models, s->document, &error));
     editor_open(s->editor, &s->world);
-    if (s->editor->core.view.playback.playing) session_key(s, KEY_SPACE, 0);
+    if (playback_of(s->editor)->playing) session_key(s, KEY_SPACE, 0);
     session_move(s, 2, 2);
     session_frame(s);
 }
@@ -25,7 +25,7 @@ static void open_dog(struct session *s) { open_file(s, "assets/scenes/dog.json")
 /// What is on the stage at a frame: camera, poses and shadows.
 static uint64_t stage_at(struct session *s, double frame)
 {
-    playback_seek(&s->editor->core, frame);
+    seek(s->editor, frame);
     session_frame(s);
     return editor_stage(s->editor)->hash;
 }
@@ -70,7 +70,7 @@ TEST(k_shows_the_stage_as_it_was)
 /// Lines in the plot with this colour, whatever its opacity.
 static int count_lines(const struct session *s, uint32_t color)
 {
-    const struct drawlist *list = &s->editor->core.list;
+    const struct drawlist *list = drawn_by(s->editor);
     int count = 0;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
@@ -100,8 +100,8 @@ SESSION_TEST(k_shows_the_curves_as_they_were, open_dog(s))
 
 static int count_marks(const struct session *s)
 {
-    const struct drawlist *list = &s->editor->core.list;
-    const float left = s->editor->core.view.layout.inspector.x;
+    const struct drawlist *list = drawn_by(s->editor);
+    const float left = layout_of(s->editor)->inspector.x;
     int count = 0;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
@@ -134,19 +134,19 @@ SESSION_TEST(rows_show_what_they_were, open_dog(s))
 SESSION_TEST(what_k_cannot_show, open_dog(s))
 {
     hold_k(s, true);
-    assert_non_null(strstr(s->editor->core.message.text, "Nothing is kept yet"));
+    assert_said(s->editor, "Nothing is kept yet");
     hold_k(s, false);
     session_key(s, 'K', MOD_SHIFT);
     inspector_add(s->editor->inspector, ADD_TAIL);
     session_frame(s);
     const uint64_t now = stage_at(s, 20);
     hold_k(s, true);
-    assert_non_null(strstr(s->editor->core.message.text, "Only the curves"));
+    assert_said(s->editor, "Only the curves");
     assert_true(editor_stage(s->editor)->hash == now);
     hold_k(s, false);
     editor_open(s->editor, &s->world);
     hold_k(s, true);
-    assert_non_null(strstr(s->editor->core.message.text, "Nothing is kept yet"));
+    assert_said(s->editor, "Nothing is kept yet");
 }
 
 /// A drag edits what is now, and is seen.

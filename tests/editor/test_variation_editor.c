@@ -33,7 +33,7 @@ SESSION_TEST(too_few_knots_are_told, session_open(s, few))
 {
     session_frame(s);
     session_key(s, 'F', MOD_SHIFT);
-    assert_non_null(strstr(s->editor->core.message.text, "Four knots"));
+    assert_said(s->editor, "Four knots");
     assert_near(number(s, PARAMETER_FREQUENCY), 3, 0);
 }
 

@@ -43,23 +43,23 @@ static const char FORCED[] =
 static void assert_remedied(struct session *s, const char *scene, enum warning_kind kind)
 {
     session_open(s, scene);
-    assert_int_equal(s->editor->curves->warnings.count, 1);
-    assert_int_equal(s->editor->curves->warnings.list[0].kind, kind);
+    assert_int_equal(warnings_of(s->editor)->count, 1);
+    assert_int_equal(warnings_of(s->editor)->list[0].kind, kind);
     const char *original = session_saved(s);
     session_point(s, "warning(0)");
     session_frame(s);
-    assert_ptr_equal(s->editor->core.input.hover.thing, &thing_warning);
+    assert_ptr_equal(hovered(s->editor), &thing_warning);
     for (int i = 0; i < 90; i++) session_frame(s);
-    assert_false(tooltip_is_shown(&s->editor->tooltip)); // it would cover what the warning says
+    assert_false(tooltip_is_shown(tooltip_of(s->editor))); // it would cover what the warning says
     session_click(s, "warning(0)");
     session_frame(s);
-    assert_int_equal(s->editor->curves->warnings.count, 0);
+    assert_int_equal(warnings_of(s->editor)->count, 0);
     session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, original);
-    assert_int_equal(s->editor->curves->warnings.count, 1);
+    assert_int_equal(warnings_of(s->editor)->count, 1);
     assert_null(history_undo_label(s->history));
     session_key(s, 'Y', MOD_CTRL);
-    assert_int_equal(s->editor->curves->warnings.count, 0);
+    assert_int_equal(warnings_of(s->editor)->count, 0);
 }
 
 TEST(test_a_swing_is_tamed_by_what_helps)
@@ -108,7 +108,7 @@ SESSION_TEST(test_a_wind_up_without_effect_goes,
 SESSION_TEST(test_the_wind_up_of_a_spring_is_no_matter,
              session_open(s, SPLINE("\"mode\": \"real\", \"frequency\": 1, \"wind_up\": 0.5")))
 {
-    assert_int_equal(s->editor->curves->warnings.count, 0);
+    assert_int_equal(warnings_of(s->editor)->count, 0);
 }
 
 SESSION_TEST(test_a_sudden_wind_up_is_lengthened,
@@ -151,12 +151,12 @@ TEST(test_poses_on_a_curve_force_nothing)
     session_open(&s, FORCED);
     session_click(&s, "warning(0)");
     for (int frame = 6; frame < 120; frame += 24) {
-        s.editor->core.view.playback.position = frame;
+        playback_of(s.editor)->position = frame;
         session_key(&s, 'I', MOD_SHIFT);
     }
     assert_int_equal(s.document->splines[0]->knot_count, 8);
-    for (int i = 0; i < s.editor->curves->warnings.count; i++)
-        assert_int_not_equal(s.editor->curves->warnings.list[i].kind, WARNING_FORCED);
+    for (int i = 0; i < warnings_of(s.editor)->count; i++)
+        assert_int_not_equal(warnings_of(s.editor)->list[i].kind, WARNING_FORCED);
     session_close(&s);
 }
 
@@ -189,7 +189,7 @@ TEST(test_the_scenes_of_the_program_are_quiet)
 SESSION_TEST(test_a_cubic_has_nothing_to_warn_of, session_open(s, WIDE))
 {
     session_key(s, 'V', 0);
-    assert_int_equal(s->editor->curves->warnings.count, 1); // stiff: the same curve
+    assert_int_equal(warnings_of(s->editor)->count, 1); // stiff: the same curve
     session_key(s, 'V', 0);
-    assert_int_equal(s->editor->curves->warnings.count, 0);
+    assert_int_equal(warnings_of(s->editor)->count, 0);
 }

@@ -8,10 +8,10 @@
 #include "base/png.h"
 #include "blind.h"
 #include "folder.h"
-#include "inside.h"
 #include "model/character.h"
 #include "model/gltf.h"
 #include "model/surface.h"
+#include "questions.h"
 #include "scene/knots.h"
 #include "scene/load.h"
 #include "scene/paint.h"
@@ -211,7 +211,7 @@ TEST_WITH(folder_make, folder_remove, text_on_the_clipboard)
         platform_set_clipboard(blind.app.platform, text);
         const char *taken = app_clipboard_text(&blind.app);
         assert_int_equal(taken != NULL, size <= MOST);
-        if (!taken) assert_non_null(strstr(blind.app.work.editor->core.message.text, "more than 16 MB"));
+        if (!taken) assert_said(blind.app.work.editor, "more than 16 MB");
         free(text);
     }
     blind_close(&blind);

@@ -1,5 +1,4 @@
 /// Equilibria that follow a joint: read, printed, edited, baked once and again when something has changed, and solved as tracks are.
-#include "inside.h"
 #include "session.h"
 #include "world.h"
 

@@ -2,7 +2,7 @@
 #include "blind.h"
 
 #include "folder.h"
-#include "inside.h"
+#include "questions.h"
 #include "scene/load.h"
 #include <errno.h>
 #include <fcntl.h>
