@@ -4,7 +4,8 @@
 #   make library  the library alone, static and shared; needs a C compiler, no packages
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
 #   make test     builds and runs every test (TESTS="spline test_curves a_case" for rooms, files and cases; JOBS=1 for one at a time)
-#   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
+#   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen,
+#                 and in browsers, Blender, Python and Node
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
 #   make npm      the npm package, in build/npm
 #   make wheel    the Python package for every platform, in build/wheels (PLATFORMS="win_amd64" for one); fetches zig
@@ -82,7 +83,7 @@ SHARED_LIBRARY := $(B)/libwiggly.so.$(VERSION)
 LIBRARIES := $(B)/libwiggly.a $(if $(findstring mingw,$(CC)),,$(SHARED_LIBRARY))
 # FILE or FILE:CASE.
 ifneq ($(filter test test-all,$(MAKECMDGOALS)),)
-CHOSEN_TESTS := $(shell tools/find-tests.sh $(TESTS))
+CHOSEN_TESTS := $(shell $(if $(filter test-all,$(MAKECMDGOALS)),THOROUGH=1) tools/find-tests.sh $(TESTS))
 $(if $(filter-out 0,$(.SHELLSTATUS)),$(error see CONTRIBUTING.md, "Build and test"))
 endif
 
@@ -147,7 +148,7 @@ run: $(B)/wiggly
 	$(Q)[ ! -s $(LIVE_PICTURE) ] || echo "Picture: $(LIVE_PICTURE), timing log: $(LIVE_LOG)"
 
 test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(MODEL_MAKERS:%=$(B)/%) \
-    $(patsubst tests/%/,$(B)/tests/%,$(sort $(filter-out tests/,$(dir $(CHOSEN_TESTS)))))
+    $(patsubst tests/%/,$(B)/tests/%,$(sort $(foreach test,$(CHOSEN_TESTS),$(if $(findstring .c,$(test)),$(dir $(test))))))
 	$(Q)B=$(B) WIGGLY=$(B)/wiggly TEST_OUT=$(B)/test-out CC="$(CC)" tools/run-tests.sh $(CHOSEN_TESTS)
 
 test-all: export THOROUGH = 1

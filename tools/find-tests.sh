@@ -1,8 +1,8 @@
 #!/bin/sh
-# Prints the tests that the words name, all of them where there is no word: FILE or FILE:CASE. A word is a room (spline), a file
-# (test_curves, curves.c, spline/test_spline, tests/test_cli.sh) or a case.
+# Prints the tests that the words name: FILE or FILE:CASE. A word is a room (spline), a file (test_curves, curves.c, spline/test_spline,
+# tests/test_cli.sh) or a case. Without a word: all of them, but those in browsers, Blender, Python and Node only with THOROUGH=1.
 cd "$(dirname "$0")/.." || exit 1
-[ $# -gt 0 ] || set -- tests/*/test_*.c tests/test_*.sh
+[ $# -gt 0 ] || set -- tests/*/test_*.c tests/test_*.sh ${THOROUGH:+tests/hosts/test_*.sh}
 for word in "$@"; do
     path=tests/${word#tests/}
     name=${word##*/}
@@ -12,7 +12,7 @@ for word in "$@"; do
         echo "$path"
     elif [ -f "$path.c" ]; then
         echo "$path.c"
-    elif ! { ls "$path"/test_*.c || ls tests/*/"test_$name.c" tests/"test_$name.sh" | grep . ||
+    elif ! { ls "$path"/test_* || ls tests/*/"test_$name".* tests/"test_$name.sh" | grep . ||
         grep -HE "^[A-Z]*_?TEST[A-Z_]*\((.*, )?(test_)?$name[,)]" tests/*/test_*.c |
         sed -E "s/^([^:]*):.*\W((test_)?$name)[,)].*/\1:\2/" | grep .; } 2>/dev/null; then
         echo "make test: no room, file or case of tests is called $word" >&2
