@@ -72,7 +72,6 @@ void editor_resize(struct editor *editor, float width, float height, float scale
 static void open_panels(struct editor *editor)
 {
     editor->seen.serial = editor->core.serial;
-    editor->fitted = false;
     curves_open(editor->curves);
     stage_open(editor->stage);
     inspector_reset(editor->inspector);
@@ -294,11 +293,6 @@ void editor_advance(struct editor *editor, double dt)
 void editor_pose(struct editor *editor)
 {
     sheet_update(editor->curves, &editor->core);
-    if (!editor->fitted) {
-        editor->fitted = true;
-        curves_frame_all(editor->curves, &editor->core);
-        stage_fit(editor->stage, &editor->core);
-    }
     if (editor->core.view.refit_curves) curves_frame_all(editor->curves, &editor->core);
     editor->core.view.refit_curves = false;
     follow_edits(editor->curves, &editor->core);

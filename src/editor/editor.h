@@ -27,7 +27,6 @@ struct editor {
         unsigned serial; ///< of the document
         unsigned active; ///< id of the spline
     } seen;              ///< by the panels
-    bool fitted;         ///< camera and curves view, at a document's first editor_pose()
 };
 
 struct editor *editor_create(void);

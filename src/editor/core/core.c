@@ -42,6 +42,7 @@ void core_open(struct core *core)
     core->input.hover = (struct hover){0};
     core->step.edited = (struct edited){0};
     core->view.look = LOOK_WIGGLY;
+    core->view.refit_stage = core->view.refit_curves = true;
     core->focus.brush.on = false;
     core->focus.bone.any = false;
     core->focus.pin.any = false;

@@ -380,8 +380,8 @@ struct view {
     bool in_page;                  ///< the app runs in a browser
     bool still;                    ///< no scene plays by itself
     bool plain;                    ///< the stage without text
-    bool refit_stage;              ///< fit the camera to the stage
-    bool refit_curves;             ///< show all curves after the solve
+    bool refit_stage;              ///< editor_pose() fits the camera: what an edit adds has no place before
+    bool refit_curves;             ///< it shows all curves: they have no values before the solve
 };
 
 struct core {
