@@ -25,7 +25,8 @@ struct editor *editor_create(void)
     drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
     editor->curves = curves_create();
     editor->stage = stage_create(&editor->core);
-    editor->inspector = inspector_create(&editor->core);
+    editor->inspector = editor->core.inspector = inspector_create(&editor->core);
+    editor->core.show_clicked = inspector_show_clicked;
     editor->dialogs = dialogs_create(commands, command_count);
     editor->core.view.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
     editor->core.view.layout.inspector_width = THEME_INSPECTOR_WIDTH;
@@ -95,7 +96,6 @@ static void end_event(struct editor *editor)
     struct core *core = &editor->core;
     core_close(core);
     if (editor->seen.serial != core->serial) open_panels(editor);
-    inspector_show_clicked(editor->inspector);
     if (editor->seen.active == core->focus.active_id) return;
     const int before = document_find_spline_id(editor->core.document, editor->seen.active);
     editor->seen.active = core->focus.active_id;

@@ -111,6 +111,7 @@ struct selection {
 
 struct drag_owner;
 struct hover;
+struct inspector;
 struct core;
 
 /// The running drag, see drag.h.
@@ -400,7 +401,10 @@ struct core {
     struct focus focus;
     struct input input;
     struct view view;
-    int clicked; ///< clicked rig + 1, until the inspector shows it
+
+    // The inspector, which other panels do not know: set by editor_create().
+    struct inspector *inspector;
+    void (*show_clicked)(struct inspector *inspector, int rig);
 
     // What it says, and asks of the user and the app.
     struct drawlist list;

@@ -16,7 +16,7 @@ void inspector_unfold(struct inspector *in, const char *name);
 /// Shows a rig and its spline.
 void inspector_show_rig(struct inspector *in, int rig);
 /// The same for the rig clicked on the stage, without scrolling: its feel stays in sight.
-void inspector_show_clicked(struct inspector *in);
+void inspector_show_clicked(struct inspector *in, int rig);
 /// Shows the channel that a spline drives, of the shown rig if possible.
 void inspector_show_spline(struct inspector *in, int spline);
 /// A: the menu of things to add, at the pointer or at the top of the inspector.

@@ -113,11 +113,9 @@ void inspector_show_rig(struct inspector *in, int rig)
     inspector_show_spline(in, in->core->focus.active);
 }
 
-void inspector_show_clicked(struct inspector *in)
+void inspector_show_clicked(struct inspector *in, int rig)
 {
-    const int rig = in->core->clicked - 1;
-    in->core->clicked = 0;
-    if (rig < 0 || rig >= in->core->document->rig_count) return;
+    if (rig >= in->core->document->rig_count) return;
     inspector_show_rig(in, rig);
     in->seen_bone = in->core->focus.bone; // of a chain
     in->revealed = NULL;

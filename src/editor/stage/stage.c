@@ -130,8 +130,9 @@ void stage_click(void *room, struct core *core, bool keep)
 {
     const struct stage *stage = room;
     if (core->input.drag.moved || core->input.drag.button != BUTTON_LEFT || !keep) return;
-    if (is_on_rig(&stage->pressed) && core->focus.pick.use == BONE_SELECTED) core->clicked = stage->pressed.rig + 1;
+    const bool shows = is_on_rig(&stage->pressed) && core->focus.pick.use == BONE_SELECTED;
     bone_click(stage, core);
+    if (shows) core->show_clicked(core->inspector, stage->pressed.rig);
 }
 
 static const float ORBIT_SPEED = 0.008f; ///< radians per pixel
