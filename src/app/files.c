@@ -219,7 +219,7 @@ static uint64_t changed_content(const struct app *app)
 /// Asks about a changed file. `saves`: the user tried to save, so the question replaces saving.
 static bool ask_changed(struct app *app, bool saves)
 {
-    return dialogs_ask_changed(app->work.editor->dialogs, &app->work.editor->core, path_name(app_path(app)), saves);
+    return dialogs_ask_changed(app->work.editor->dialogs, path_name(app_path(app)), saves);
 }
 
 void file_watch_look(struct app *app)

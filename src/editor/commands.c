@@ -27,7 +27,7 @@ enum show {
 static void run_show(struct editor *e, int what)
 {
     const bool on_stage = core_panel_at(&e->core, e->core.input.pointer_x, e->core.input.pointer_y) == PANEL_STAGE;
-    if (what == SHOW_HELP) dialogs_help(e->dialogs, &e->core);
+    if (what == SHOW_HELP) dialogs_help(e->dialogs);
     if (what == SHOW_PALETTE) dialogs_palette(e->dialogs);
     if (what == SHOW_ALL && !on_stage) curves_frame_all(e->curves, &e->core);
     if (what == SHOW_SELECTION) curves_frame_selection(e->curves, &e->core);
@@ -461,9 +461,9 @@ void command_run(struct editor *editor, const struct command *command)
     if (kind == REQUEST_NEW || kind == REQUEST_OPEN || kind == REQUEST_FIGURE || kind == REQUEST_QUIT) {
         editor_leave(editor, &request);
     } else if (kind == REQUEST_SAVE_AS || (kind == REQUEST_SAVE && !core->path[0])) {
-        dialogs_save_as(editor->dialogs, core);
+        dialogs_save_as(editor->dialogs);
     } else if (kind == REQUEST_EXPORT) {
-        dialogs_export(editor->dialogs, core);
+        dialogs_export(editor->dialogs);
     } else if (kind != REQUEST_NONE) {
         core->request = request;
     }

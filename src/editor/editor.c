@@ -27,7 +27,7 @@ struct editor *editor_create(void)
     editor->stage = stage_create(&editor->core);
     editor->inspector = editor->core.inspector = inspector_create(&editor->core);
     editor->core.show_clicked = inspector_show_clicked;
-    editor->dialogs = dialogs_create(commands, command_count);
+    editor->dialogs = dialogs_create(&editor->core, commands, command_count);
     editor->core.view.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
     editor->core.view.layout.inspector_width = THEME_INSPECTOR_WIDTH;
     editor->core.view.visible = 2;
@@ -115,8 +115,7 @@ struct request editor_take_request(struct editor *editor)
 
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
 {
-    if (!dialogs_answer(editor->dialogs, &editor->core, request, ok, text) && !ok)
-        core_message(&editor->core, true, "%s", text);
+    if (!dialogs_answer(editor->dialogs, request, ok, text) && !ok) core_message(&editor->core, true, "%s", text);
 }
 
 bool editor_wants_frames(const struct editor *editor)
@@ -124,7 +123,7 @@ bool editor_wants_frames(const struct editor *editor)
     const struct drag_owner *dragged = editor->core.input.drag.owner;
     return editor->core.view.playback.playing || (dragged && dragged->goes_on) || stage_is_moving(editor->stage) ||
            editor->core.message.seconds_left > 0 || editor->core.unshown || editor->core.step.nudged_seconds > 0 ||
-           presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs, &editor->core) ||
+           presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs) ||
            curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip);
 }
 
@@ -184,7 +183,7 @@ static void editor_press(struct editor *editor, const struct event *event)
 void editor_leave(struct editor *editor, const struct request *request)
 {
     inspector_let_go(editor->inspector);
-    dialogs_leave(editor->dialogs, &editor->core, request);
+    dialogs_leave(editor->dialogs, request);
 }
 
 /// For events that no dialog, drag or inspector used.
@@ -248,7 +247,7 @@ void editor_event(struct editor *editor, const struct event *event)
     dialogs_note(editor->dialogs, event);
     if (event->kind == EVENT_TEXT && editor->press.opened) return;
     bool used = (!dialogs_are_asking(editor->dialogs) && keys_first(editor, event)) ||
-                dialogs_event(editor->dialogs, core, event) || drag_event(core, event) ||
+                dialogs_event(editor->dialogs, event) || drag_event(core, event) ||
                 (!inspector_ui(editor->inspector)->typing && presenter_event(core, event)) ||
                 (!core->input.drag.owner && inspector_event(editor->inspector, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
@@ -260,7 +259,7 @@ void editor_event(struct editor *editor, const struct event *event)
     end_event(editor);
 
     // A question or another new overlay ends any drag and releases held keys.
-    if (dialogs_ask(editor->dialogs, core)) inspector_let_go(editor->inspector);
+    if (dialogs_ask(editor->dialogs)) inspector_let_go(editor->inspector);
     if (!dialogs_cover(editor->dialogs)) return;
     drag_end(core, true);
     core->input.held_key = 0;
@@ -279,7 +278,7 @@ void editor_advance(struct editor *editor, double dt)
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
     presenter_advance(&editor->core, dt, busy);
-    dialogs_advance(editor->dialogs, &editor->core, dt);
+    dialogs_advance(editor->dialogs, dt);
     editor->core.step.nudged_seconds = fmax(editor->core.step.nudged_seconds - dt, 0);
     transport_advance(&editor->core, dt);
     tooltip_advance(&editor->tooltip, dt);
@@ -364,8 +363,8 @@ void editor_show(struct editor *editor)
     }
 
     stage_show(editor->stage, core);
-    dialogs_show_welcome(editor->dialogs, core, stage_figure(editor->stage, core));
-    stage_show_caption(core, dialogs_bottom(editor->dialogs, core));
+    dialogs_show_welcome(editor->dialogs, stage_figure(editor->stage, core));
+    stage_show_caption(core, dialogs_bottom(editor->dialogs));
 
     // While presenting, only the panels that have not slid away.
     const struct presenter *presenter = &core->view.presenter;
@@ -376,8 +375,8 @@ void editor_show(struct editor *editor)
     if (side) show_divider(editor, core->view.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
     if (below) transport_show(&editor->status, core, hint_of(editor));
 
-    dialogs_show_input(editor->dialogs, core);
-    dialogs_show(editor->dialogs, core);
+    dialogs_show_input(editor->dialogs);
+    dialogs_show(editor->dialogs);
 
     // The tooltip is for the control under the pointer, else for the focused one.
     const struct rect cursor = {x, y - 4, 14, 22};

@@ -264,8 +264,8 @@ SESSION_TEST(test_buttons_fit_the_smallest_window, open_session(s))
     static const char *const all[][4] = {{"Keep mine", "Take theirs", "Save as", "Cancel"}, {"Cancel", "Save"}};
     for (int saving = 0; saving < 2; saving++) {
         editor_resize(s->editor, 480, 320, 1);
-        if (!saving) dialogs_ask_changed(s->editor->dialogs, &s->editor->core, "walk.json", true);
-        if (saving) dialogs_save_as(s->editor->dialogs, &s->editor->core);
+        if (!saving) dialogs_ask_changed(s->editor->dialogs, "walk.json", true);
+        if (saving) dialogs_save_as(s->editor->dialogs);
         session_frame(s);
         const char *title = saving ? "Save the scene as" : "walk.json has changed on the disk";
         const float left = shown_text(s->editor, title)->x;

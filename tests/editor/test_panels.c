@@ -109,12 +109,12 @@ static void check_dialogs(struct session *f)
     core_close(core);
     for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_open(f->editor->dialogs, DIALOG_OPEN, "");
-        if (kind == 1) dialogs_save_as(f->editor->dialogs, &f->editor->core);
-        if (kind == 2) dialogs_leave(f->editor->dialogs, &f->editor->core, &quit);
+        if (kind == 1) dialogs_save_as(f->editor->dialogs);
+        if (kind == 2) dialogs_leave(f->editor->dialogs, &quit);
         if (kind == 3) offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
-            dialogs_show(f->editor->dialogs, &f->editor->core);
+            dialogs_show(f->editor->dialogs);
             assert_true(assert_texts_apart(drawn_by(f->editor), 0, layout_of(f->editor)->window) >= 4);
             dialog_of(f->editor)->awaited = REQUEST_SAVE;
             panel_answer(

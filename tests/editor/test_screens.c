@@ -101,7 +101,7 @@ static void open_recover(struct session *s)
 
 static void open_changed(struct session *s)
 {
-    dialogs_ask_changed(s->editor->dialogs, &s->editor->core, "walk.json", true);
+    dialogs_ask_changed(s->editor->dialogs, "walk.json", true);
 }
 
 /// A long name beside the figures.

@@ -250,9 +250,9 @@ void core_request(struct core *core, enum request_kind kind, const char *path)
 }
 
 struct question *core_ask(struct core *core, const struct answer *answers, int count,
-                          void (*answered)(void *dialogs, struct core *core, int answer))
+                          void (*answered)(void *core, int answer))
 {
-    core->question = (struct question){.answers = answers, .count = count, .answered = answered};
+    core->question = (struct question){.answers = answers, .count = count, .of = core, .answered = answered};
     return &core->question;
 }
 

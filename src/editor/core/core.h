@@ -39,7 +39,7 @@ void core_jump(struct core *core, size_t done);
 void core_request(struct core *core, enum request_kind kind, const char *path);
 /// A question to ask after the event; the caller fills in its text.
 struct question *core_ask(struct core *core, const struct answer *answers, int count,
-                          void (*answered)(void *dialogs, struct core *core, int answer));
+                          void (*answered)(void *core, int answer));
 /// Shows a message in the status line: an error until the next key or click, others for some seconds.
 void core_message(struct core *core, bool is_error, const char *format, ...) __attribute__((format(printf, 3, 4)));
 /// Moves a knot within its spline's limits. `why` says what held it: "held by the limit 1.2 of sway at frame 14".

@@ -195,9 +195,9 @@ static void remove_rig(struct core *core, int rig, bool with_splines)
     removal_free(&removal);
 }
 
-static void answer_removal(void *dialogs, struct core *core, int answer)
+static void answer_removal(void *of, int answer)
 {
-    (void)dialogs;
+    struct core *core = of;
     remove_rig(core, core->subject.rig, answer == 0);
 }
 

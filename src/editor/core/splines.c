@@ -73,9 +73,9 @@ static bool release(struct core *core, const struct reference *reference)
     return false;
 }
 
-static void remove_active(void *dialogs, struct core *core, int answer)
+static void remove_active(void *of, int answer)
 {
-    (void)dialogs;
+    struct core *core = of;
     (void)answer;
     if (!core_active_spline(core) || !core_step(core, "Delete spline", 0)) return;
 
@@ -99,7 +99,7 @@ void spline_list_remove(struct core *core)
     if (!active) return;
     const int count = reference_count(core->document, core->focus.active);
     if (count == 0) {
-        remove_active(NULL, core, 0);
+        remove_active(core, 0);
         return;
     }
     struct question *question = core_ask(core, answers, 2, remove_active);
@@ -114,9 +114,9 @@ static void set_fps(struct core *core, double fps, bool keeps_seconds)
     if (core_step(core, "Set frames per second", 0)) edit_fps(core->document, fps, keeps_seconds, &core->step.error);
 }
 
-static void answer_fps(void *dialogs, struct core *core, int answer)
+static void answer_fps(void *of, int answer)
 {
-    (void)dialogs;
+    struct core *core = of;
     set_fps(core, core->subject.fps, answer == 1);
 }
 
@@ -163,9 +163,9 @@ static int count_outside(const struct document *document, int first, int last)
     return count;
 }
 
-static void answer_range(void *dialogs, struct core *core, int answer)
+static void answer_range(void *of, int answer)
 {
-    (void)dialogs;
+    struct core *core = of;
     set_range(core, core->subject.first, core->subject.last, answer == 0 ? RANGE_MOVE : RANGE_TRIM);
 }
 

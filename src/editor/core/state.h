@@ -238,7 +238,8 @@ struct question {
     char note[256]; ///< smaller text below; an error replaces it
     const struct answer *answers;
     int count;
-    void (*answered)(void *dialogs, struct core *core, int answer); ///< called for any answer but the last
+    void *of;
+    void (*answered)(void *of, int answer); ///< called for any answer but the last
 };
 
 /// What core's question is about.

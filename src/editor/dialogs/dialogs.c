@@ -43,8 +43,9 @@ static int question_key(struct dialog *dialog, int key)
     return QUESTION_UNUSED;
 }
 
-bool dialogs_ask(struct dialogs *dialogs, struct core *core)
+bool dialogs_ask(struct dialogs *dialogs)
 {
+    struct core *core = dialogs->core;
     const bool adds = core->request.kind == REQUEST_ADD && !core->request.path[0];
     if (adds) {
         core->request.kind = REQUEST_NONE;
@@ -58,9 +59,9 @@ bool dialogs_ask(struct dialogs *dialogs, struct core *core)
     return adds;
 }
 
-/// A question with these answers and still without a text.
+/// A question of the dialogs with these answers and still without a text.
 #define QUESTION(list, what)                                                                                         \
-    ((struct question){.answers = (list), .count = sizeof(list) / sizeof(list)[0], .answered = (what)})
+    ((struct question){.answers = (list), .count = sizeof(list) / sizeof(list)[0], .of = dialogs, .answered = (what)})
 
 enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
 static const struct answer unsaved_answers[] = {
@@ -69,25 +70,26 @@ static const struct answer unsaved_answers[] = {
     [UNSAVED_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
 };
 
-static void answer_unsaved(void *of, struct core *core, int answer)
+static void answer_unsaved(void *of, int answer)
 {
     struct dialogs *dialogs = of;
     const struct request after = dialogs->dialog.after;
     if (answer == UNSAVED_DISCARD) {
         dialog_close(dialogs);
-        dialog_go_on(dialogs, core, &after);
-    } else if (core->path[0]) {
-        dialog_await(dialogs, core, REQUEST_SAVE, NULL);
+        dialog_go_on(dialogs, &after);
+    } else if (dialogs->core->path[0]) {
+        dialog_await(dialogs, REQUEST_SAVE, NULL);
     } else {
-        dialogs_save_as(dialogs, core);
+        dialogs_save_as(dialogs);
     }
 }
 
-void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct request *after)
+void dialogs_leave(struct dialogs *dialogs, const struct request *after)
 {
+    struct core *core = dialogs->core;
     struct question *question = &dialogs->dialog.question;
     if (history_is_saved(core->history)) {
-        dialog_go_on(dialogs, core, after);
+        dialog_go_on(dialogs, after);
         return;
     }
     *question = QUESTION(unsaved_answers, answer_unsaved);
@@ -106,22 +108,22 @@ static const struct answer changed_answers[] = {
     [CHANGED_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
 };
 
-static void answer_changed(void *of, struct core *core, int answer)
+static void answer_changed(void *of, int answer)
 {
     struct dialogs *dialogs = of;
     if (answer == CHANGED_SAVE_AS) {
-        dialogs_save_as(dialogs, core);
+        dialogs_save_as(dialogs);
     } else {
         const enum request_kind mine = dialogs->dialog.saving ? REQUEST_OVERWRITE : REQUEST_KEEP_MINE;
-        dialog_await(dialogs, core, answer == CHANGED_MINE ? mine : REQUEST_THEIRS, NULL);
+        dialog_await(dialogs, answer == CHANGED_MINE ? mine : REQUEST_THEIRS, NULL);
     }
 }
 
-bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const char *name, bool saving)
+bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct question *question = &dialog->question;
-    if (!saving && (core->input.drag.owner || dialogs_cover(dialogs))) return false;
+    if (!saving && (dialogs->core->input.drag.owner || dialogs_cover(dialogs))) return false;
     *question = QUESTION(changed_answers, answer_changed);
     snprintf(question->title, sizeof question->title, "%.255s has changed on the disk", name);
     snprintf(question->note, sizeof question->note,
@@ -140,9 +142,9 @@ static const struct answer recover_answers[] = {
     [RECOVER_LATER] = {"dialog.later", "Later", 'L'},
 };
 
-static void answer_recovery(void *of, struct core *core, int answer)
+static void answer_recovery(void *of, int answer)
 {
-    dialog_await(of, core, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
+    dialog_await(of, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
 }
 
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)
@@ -210,8 +212,9 @@ static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
     return true;
 }
 
-void dialogs_export(struct dialogs *dialogs, const struct core *core)
+void dialogs_export(struct dialogs *dialogs)
 {
+    const struct core *core = dialogs->core;
     struct exporting *exporting = &dialogs->exporting;
     struct export_memory *memory = &exporting->memory;
     const struct dialog_files *files = &dialogs->dialog.files;
@@ -261,7 +264,7 @@ void dialogs_tell_export(struct dialogs *dialogs, long done, long total)
     dialogs->exporting.total = total;
 }
 
-static void confirm_export(struct dialogs *dialogs, struct core *core)
+static void confirm_export(struct dialogs *dialogs)
 {
     struct dialog *dialog = &dialogs->dialog;
     const struct export_memory *memory = &dialogs->exporting.memory;
@@ -277,31 +280,31 @@ static void confirm_export(struct dialogs *dialogs, struct core *core)
         return;
     }
     dialogs->exporting.done = dialogs->exporting.total = 0;
-    dialog_await(dialogs, core, REQUEST_EXPORT, full);
-    core->request.wish = memory->wish;
+    dialog_await(dialogs, REQUEST_EXPORT, full);
+    dialogs->core->request.wish = memory->wish;
 }
 
-static void stop(struct dialogs *dialogs, struct core *core)
+static void stop(struct dialogs *dialogs)
 {
     if (is_running(&dialogs->dialog)) {
-        core_request(core, REQUEST_EXPORT_STOP, NULL);
+        core_request(dialogs->core, REQUEST_EXPORT_STOP, NULL);
     } else {
         dialog_close(dialogs);
     }
 }
 
 /// The Export dialog's keys; true if used. They also arrive while the app is busy.
-static bool export_key(struct dialogs *dialogs, struct core *core, int key)
+static bool export_key(struct dialogs *dialogs, int key)
 {
     const struct ui *ui = &dialogs->dialog.ui;
     const bool in_text = ui->focus == ui_id(ui, path_field) || ui->focus == ui_id(ui, clip_field);
     const int format = dialogs->exporting.format, last = dialogs->dialog.files.format_count - 1;
     if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
-        stop(dialogs, core);
+        stop(dialogs);
     } else if (is_running(&dialogs->dialog)) {
         return key != KEY_ENTER && key != KEY_SPACE; // Enter and Space press the button
     } else if (key == KEY_ENTER && in_text) {
-        confirm_export(dialogs, core);
+        confirm_export(dialogs);
     } else if (key == KEY_UP && in_text) {
         choose_format(dialogs, format > 0 ? format - 1 : 0);
     } else if (key == KEY_DOWN && in_text) {
@@ -523,8 +526,9 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     ui_space(ui, fmaxf(8, NOTE_HEIGHT - (ui->y - top)));
 }
 
-static void export_build(struct dialogs *dialogs, struct core *core)
+static void export_build(struct dialogs *dialogs)
 {
+    struct core *core = dialogs->core;
     enum { CANCEL_WIDTH = 104, WRITE_WIDTH = 240 };
     struct exporting *exporting = &dialogs->exporting;
     struct export_memory *memory = &exporting->memory;
@@ -580,8 +584,8 @@ static void export_build(struct dialogs *dialogs, struct core *core)
     with_ending(files, memory->path, exporting->format, full);
     snprintf(label, sizeof label, "Write %.48s", path_name(full));
     const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
-    if (!running && ui_button(ui, right, "dialog.confirm", label, true)) confirm_export(dialogs, core);
-    if (stopped) stop(dialogs, core);
+    if (!running && ui_button(ui, right, "dialog.confirm", label, true)) confirm_export(dialogs);
+    if (stopped) stop(dialogs);
 }
 
 enum { LIST_ROWS = 8, AROUND_LIST = 184, BUTTON_WIDTH = 104 };
@@ -655,30 +659,30 @@ void dialog_close(struct dialogs *dialogs)
     dialog->after.kind = REQUEST_NONE;
 }
 
-void dialogs_save_as(struct dialogs *dialogs, const struct core *core)
+void dialogs_save_as(struct dialogs *dialogs)
 {
+    const struct core *core = dialogs->core;
     const char *name = path_has_end(core->title, ".json") ? core->title : "untitled.json";
     dialog_open(dialogs, DIALOG_SAVE_AS, core->path[0] ? core->path : name);
 }
 
-void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct request *after)
+void dialog_go_on(struct dialogs *dialogs, const struct request *after)
 {
     if (after->kind == REQUEST_OPEN && !after->path[0]) {
         dialog_open(dialogs, DIALOG_OPEN, "");
     } else if (after->kind != REQUEST_NONE) {
-        core->request = *after;
+        dialogs->core->request = *after;
     }
 }
 
-void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path)
+void dialog_await(struct dialogs *dialogs, enum request_kind kind, const char *path)
 {
     dialogs->dialog.error[0] = '\0';
     dialogs->dialog.awaited = kind;
-    core_request(core, kind, path);
+    core_request(dialogs->core, kind, path);
 }
 
-bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
-                    const char *text)
+bool dialogs_answer(struct dialogs *dialogs, const struct request *request, bool ok, const char *text)
 {
     struct dialog *dialog = &dialogs->dialog;
     if (dialog->awaited == REQUEST_NONE || dialog->awaited != request->kind) return false;
@@ -686,14 +690,14 @@ bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct req
     if (ok) {
         struct request after = dialog->after;
         dialog_close(dialogs);
-        dialog_go_on(dialogs, core, &after);
+        dialog_go_on(dialogs, &after);
     } else {
         snprintf(dialog->error, sizeof dialog->error, "%s", text);
     }
     return true;
 }
 
-static void confirm(struct dialogs *dialogs, struct core *core)
+static void confirm(struct dialogs *dialogs)
 {
     struct dialog *dialog = &dialogs->dialog;
     char path[sizeof((struct request *)0)->path];
@@ -709,21 +713,17 @@ static void confirm(struct dialogs *dialogs, struct core *core)
         snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
         return;
     }
-    dialog_await(dialogs, core,
-                 saving                       ? REQUEST_SAVE_AS
-                 : dialog->kind == DIALOG_ADD ? REQUEST_ADD
-                                              : REQUEST_OPEN,
-                 path);
+    dialog_await(dialogs, saving ? REQUEST_SAVE_AS : dialog->kind == DIALOG_ADD ? REQUEST_ADD : REQUEST_OPEN, path);
 }
 
-static void answer(struct dialogs *dialogs, struct core *core, int given)
+static void answer(struct dialogs *dialogs, int given)
 {
     const struct dialog *dialog = &dialogs->dialog;
-    void (*const answered)(void *, struct core *, int) = dialog->question.answered;
-    const bool changes = given + 1 < dialog->question.count;
+    const struct question question = dialog->question;
+    const bool changes = given + 1 < question.count;
     if (given < 0) return;
     if (!changes || dialog->kind == DIALOG_ASK) dialog_close(dialogs);
-    if (changes) answered(dialogs, core, given);
+    if (changes) question.answered(question.of, given);
 }
 
 static void move_choice(struct dialog *dialog, int direction)
@@ -786,7 +786,7 @@ static bool dialog_take(struct dialog *dialog, int match)
     return !folder;
 }
 
-static bool path_key(struct dialogs *dialogs, struct core *core, int key)
+static bool path_key(struct dialogs *dialogs, int key)
 {
     struct dialog *dialog = &dialogs->dialog;
     switch (key) {
@@ -806,18 +806,18 @@ static bool path_key(struct dialogs *dialogs, struct core *core, int key)
         if (dialog->choice < 0 && dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1 &&
             !dialog_recent_of(dialog, 0) && begins(dialog, dialog->names[dialog->match[0]]))
             dialog->choice = 0; // the only match, if it begins with the text
-        if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(dialogs, core);
+        if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(dialogs);
         return true;
     default:
         return false;
     }
 }
 
-static void build_list(struct dialogs *dialogs, struct core *core)
+static void build_list(struct dialogs *dialogs)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
-    const int rows = (int)fminf(LIST_ROWS, fmaxf((core->view.layout.window.h - AROUND_LIST) / UI_ROW, 1));
+    const int rows = (int)fminf(LIST_ROWS, fmaxf((dialogs->core->view.layout.window.h - AROUND_LIST) / UI_ROW, 1));
     struct rect list = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
     const struct event *event = ui->event;
     const bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
@@ -854,10 +854,10 @@ static void build_list(struct dialogs *dialogs, struct core *core)
     if (taken >= 0) dialog->error[0] = '\0';
     bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // one click opens a recent file
     bool done = taken >= 0 && !confirmed && dialog_take(dialog, taken);
-    if (confirmed || (done && direct)) confirm(dialogs, core);
+    if (confirmed || (done && direct)) confirm(dialogs);
 }
 
-static void build_path(struct dialogs *dialogs, struct core *core)
+static void build_path(struct dialogs *dialogs)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
@@ -872,7 +872,7 @@ static void build_path(struct dialogs *dialogs, struct core *core)
         dialog_match(dialog);
     }
     ui_space(ui, 8);
-    if (dialog->files.list) build_list(dialogs, core);
+    if (dialog->files.list) build_list(dialogs);
     const char *note = "", *typed = path_name(ui->text.bytes);
     for (int m = 0; saving && m < dialog->match_count; m++) {
         if (!dialog_recent_of(dialog, m) && strcmp(dialog->names[dialog->match[m]], typed) == 0)
@@ -889,12 +889,11 @@ static void build_path(struct dialogs *dialogs, struct core *core)
     struct rect right = {row.x + row.w - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
     struct rect left = {right.x - UI_GAP - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
     bool cancelled = ui_button(ui, left, "dialog.cancel", "Cancel", false);
-    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : adding ? "Add" : "Open", true))
-        confirm(dialogs, core);
+    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : adding ? "Add" : "Open", true)) confirm(dialogs);
     if (cancelled) dialog_close(dialogs);
 }
 
-static void build(struct dialogs *dialogs, struct core *core)
+static void build(struct dialogs *dialogs)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
@@ -916,32 +915,32 @@ static void build(struct dialogs *dialogs, struct core *core)
             const struct rect r = {x, row.y, width, row.h};
             if (ui_button(ui, r, offered->name, offered->label, i == dialog->choice)) pressed = i;
         }
-        answer(dialogs, core, pressed);
+        answer(dialogs, pressed);
     } else if (dialog->kind == DIALOG_EXPORT) {
-        export_build(dialogs, core);
+        export_build(dialogs);
     } else {
         ui->focus = ui_id(ui, "dialog.path"); // the path is the only text field
-        build_path(dialogs, core);
+        build_path(dialogs);
     }
     ui_space(ui, 12);
 }
 
 /// Centred, as high as its content.
-static struct rect dialog_box(struct dialogs *dialogs, struct core *core)
+static struct rect dialog_box(struct dialogs *dialogs)
 {
-    struct rect window = core->view.layout.window;
+    struct rect window = dialogs->core->view.layout.window;
     struct ui *ui = &dialogs->dialog.ui;
     const bool narrow = is_question(&dialogs->dialog) && dialogs->dialog.question.count < 4;
     float w = fminf(narrow ? 440 : 560, window.w - 16);
     ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
-    build(dialogs, core);
+    build(dialogs);
     float h = fminf(ui->y, window.h - 16);
     ui_end(ui);
     return (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
 }
 
 /// true for every event while a dialog is open, except EVENT_SIZE and EVENT_EXPOSE.
-static bool dialog_event(struct dialogs *dialogs, struct core *core, const struct event *event)
+static bool dialog_event(struct dialogs *dialogs, const struct event *event)
 {
     struct dialog *dialog = &dialogs->dialog;
     if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
@@ -960,23 +959,24 @@ static bool dialog_event(struct dialogs *dialogs, struct core *core, const struc
         if (is_question(dialog)) {
             const int given = question_key(dialog, event->key);
             dialog->skip_text = given != QUESTION_UNUSED; // an answer's letter also arrives as text
-            answer(dialogs, core, given);
+            answer(dialogs, given);
             if (given != QUESTION_UNUSED) return true;
-        } else if (exports ? export_key(dialogs, core, event->key) : path_key(dialogs, core, event->key)) {
+        } else if (exports ? export_key(dialogs, event->key) : path_key(dialogs, event->key)) {
             return true;
         }
     }
     if (event->kind == EVENT_WHEEL && !is_question(dialog) && !exports) move_choice(dialog, event->dy > 0 ? -3 : 3);
-    struct rect box = dialog_box(dialogs, core);
+    struct rect box = dialog_box(dialogs);
     ui_begin_event(&dialog->ui, box, event);
-    build(dialogs, core);
+    build(dialogs);
     ui_end(&dialog->ui);
     return true;
 }
 
-struct dialogs *dialogs_create(const struct command *commands, int count)
+struct dialogs *dialogs_create(struct core *core, const struct command *commands, int count)
 {
     struct dialogs *dialogs = need_zeroed(1, sizeof *dialogs);
+    dialogs->core = core;
     dialogs->commands = (struct command_list){commands, count};
     return dialogs;
 }
@@ -985,22 +985,23 @@ void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
 
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
-bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event)
+bool dialogs_event(struct dialogs *dialogs, const struct event *event)
 {
-    return dialog_event(dialogs, core, event) || lookup_event(dialogs, core, event) || welcome_event(dialogs, event);
+    return dialog_event(dialogs, event) || lookup_event(dialogs, event) || welcome_event(dialogs, event);
 }
 
-void dialogs_show(struct dialogs *dialogs, struct core *core)
+void dialogs_show(struct dialogs *dialogs)
 {
-    lookup_show(dialogs, core);
+    struct core *core = dialogs->core;
+    lookup_show(dialogs);
     if (dialogs->dialog.kind == DIALOG_NONE) return;
     struct drawlist *list = &core->list;
-    const struct rect box = dialog_box(dialogs, core);
+    const struct rect box = dialog_box(dialogs);
     drawlist_rect(list, core->view.layout.window, theme()->veil);
     drawlist_rounded(list, box, 8, theme()->panel);
     drawlist_rounded_line(list, box, 8, 1, theme()->zero);
     ui_begin_draw(&dialogs->dialog.ui, box, list);
-    build(dialogs, core);
+    build(dialogs);
     ui_end(&dialogs->dialog.ui);
 }
 
@@ -1014,8 +1015,8 @@ bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over)
     return dialogs_cover(dialogs);
 }
 
-float dialogs_bottom(const struct dialogs *dialogs, const struct core *core)
+float dialogs_bottom(const struct dialogs *dialogs)
 {
-    const struct rect *stage = &core->view.layout.stage;
+    const struct rect *stage = &dialogs->core->view.layout.stage;
     return dialogs->welcome ? dialogs->card.y : stage->y + stage->h;
 }

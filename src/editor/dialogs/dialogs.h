@@ -38,37 +38,36 @@ struct dialogs;
 struct command;
 
 /// `commands`: the table for F1 and F3.
-struct dialogs *dialogs_create(const struct command *commands, int count);
+struct dialogs *dialogs_create(struct core *core, const struct command *commands, int count);
 void dialogs_destroy(struct dialogs *dialogs);
 /// Copies `files`.
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files);
-void dialogs_save_as(struct dialogs *dialogs, const struct core *core);
-void dialogs_export(struct dialogs *dialogs, const struct core *core);
+void dialogs_save_as(struct dialogs *dialogs);
+void dialogs_export(struct dialogs *dialogs);
 /// Sets the Export dialog's initial choices.
 void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory);
 /// Reports the export's progress; `total` 0 if unknown.
 void dialogs_tell_export(struct dialogs *dialogs, long done, long total);
 /// Carries out `after` (new, figure, open, quit), but first offers Save, Discard and Cancel for unsaved work. After Save it goes on only if
 /// saving succeeded. REQUEST_OPEN without a path asks for one.
-void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct request *after);
+void dialogs_leave(struct dialogs *dialogs, const struct request *after);
 /// The app's answer to the dialog's request: the dialog closes and `after` follows, or it stays and shows why not. false if no dialog waits
 /// for this answer.
-bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
-                    const char *text);
-void dialogs_show(struct dialogs *dialogs, struct core *core);
+bool dialogs_answer(struct dialogs *dialogs, const struct request *request, bool ok, const char *text);
+void dialogs_show(struct dialogs *dialogs);
 /// Opens core's question, or asks which file REQUEST_ADD means; false if there is nothing to ask.
-bool dialogs_ask(struct dialogs *dialogs, struct core *core);
+bool dialogs_ask(struct dialogs *dialogs);
 /// Another program has changed the document's file `name`: asks whether to keep yours, load theirs or save under another name. `saving`:
 /// the user just asked to save; this replaces the answer. false during a drag or under another overlay.
-bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const char *name, bool saving);
+bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving);
 /// Offers recovered work of an earlier run: REQUEST_RECOVER, REQUEST_FORGET, or later.
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
 /// true if a dialog, the help or the welcome card uses the event.
-bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event);
+bool dialogs_event(struct dialogs *dialogs, const struct event *event);
 /// Whether a dialog is open. It takes every key.
 bool dialogs_are_asking(const struct dialogs *dialogs);
 /// Opens or closes the key overlay (F1).
-void dialogs_help(struct dialogs *dialogs, const struct core *core);
+void dialogs_help(struct dialogs *dialogs);
 /// Opens or closes the command palette (F3).
 void dialogs_palette(struct dialogs *dialogs);
 /// Takes the command chosen in the palette; NULL: none.
@@ -78,19 +77,19 @@ bool dialogs_cover(const struct dialogs *dialogs);
 /// Whether an overlay is open, and what part of a dialog the pointer is on.
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
 /// Height of the stage's left side that is free of overlays.
-float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
+float dialogs_bottom(const struct dialogs *dialogs);
 /// Opens the card for new users.
 void dialogs_welcome(struct dialogs *dialogs);
 bool dialogs_is_welcoming(const struct dialogs *dialogs);
 /// Records every event, to show pressed keys.
 void dialogs_note(struct dialogs *dialogs, const struct event *event);
 /// Fades shown keys and moves the demo's pointer.
-void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt);
+void dialogs_advance(struct dialogs *dialogs, double dt);
 /// Whether those are still moving.
-bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core);
+bool dialogs_want_frames(const struct dialogs *dialogs);
 /// Draws pressed keys, caption and pointer while presenting and in demos.
-void dialogs_show_input(const struct dialogs *dialogs, struct core *core);
+void dialogs_show_input(const struct dialogs *dialogs);
 /// Draws the card for new users beside `figure`, the rigs' rectangle.
-void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rect figure);
+void dialogs_show_welcome(struct dialogs *dialogs, struct rect figure);
 
 #endif

@@ -141,8 +141,9 @@ static struct page keys_page(const struct dialogs *dialogs, const struct command
 
 /// Finds the commands that match, and lays out the overlay that is open. For the palette those that can run now come first; for F1 all its
 /// rows are in the table's order.
-static struct page lookup_page(const struct dialogs *dialogs, const struct core *core, struct commands_found *found)
+static struct page lookup_page(const struct dialogs *dialogs, struct commands_found *found)
 {
+    const struct core *core = dialogs->core;
     const struct command *commands = dialogs->commands.commands;
     const int count = dialogs->commands.count;
     const struct ui_filter *filter = &dialogs->lookup.filter;
@@ -184,8 +185,9 @@ static void flip_lookup(struct dialogs *dialogs, struct lookup opened)
     dialogs->welcome &= !open;
 }
 
-void dialogs_help(struct dialogs *dialogs, const struct core *core)
+void dialogs_help(struct dialogs *dialogs)
 {
+    const struct core *core = dialogs->core;
     static const enum place places[] = {[PANEL_NONE] = ON_STAGE,
                                         [PANEL_STAGE] = ON_STAGE,
                                         [PANEL_CURVES] = ON_CURVES,
@@ -260,7 +262,7 @@ static void palette_event(struct lookup *lookup, const struct page *page, const 
     if (runs && !found->missing[choice]) *lookup = (struct lookup){.chosen = found->list[choice]};
 }
 
-bool lookup_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
+bool lookup_event(struct dialogs *dialogs, const struct event *event)
 {
     struct lookup *lookup = &dialogs->lookup;
     struct event meant = *event;
@@ -270,7 +272,7 @@ bool lookup_event(struct dialogs *dialogs, const struct core *core, const struct
     if (key && meant.action == ACTION_RELEASE) return false; // the key was pressed before it opened
     if (meant.kind == EVENT_POINTER || meant.kind > EVENT_WHEEL) return false;
     struct commands_found found;
-    const struct page page = lookup_page(dialogs, core, &found);
+    const struct page page = lookup_page(dialogs, &found);
     ui_list_fit(&lookup->list, page.view, page.content);
     if (ui_filter_event(&lookup->filter, &meant)) {
         lookup->choice = 0;
@@ -402,14 +404,15 @@ static void show_headings(struct drawlist *list, const struct dialogs *dialogs, 
     }
 }
 
-void lookup_show(const struct dialogs *dialogs, struct core *core)
+void lookup_show(const struct dialogs *dialogs)
 {
+    struct core *core = dialogs->core;
     const struct lookup *lookup = &dialogs->lookup;
     const bool is_palette = lookup->kind == LOOKUP_PALETTE, typed = lookup->filter.typed[0] != '\0';
     struct drawlist *drawn = &core->list;
     struct commands_found found;
     if (!lookup->kind) return;
-    const struct page page = lookup_page(dialogs, core, &found);
+    const struct page page = lookup_page(dialogs, &found);
     struct ui_list list = lookup->list;
     ui_list_fit(&list, page.view, page.content);
     drawlist_rect(drawn, core->view.layout.window, theme()->veil);
@@ -605,8 +608,9 @@ static void show_right(struct core *core, const struct card *card, float y, enum
     show_text(core, card->rect.x + card->rect.w - CARD_PAD - width_of(font, text), y, font, color, text);
 }
 
-void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rect figure)
+void dialogs_show_welcome(struct dialogs *dialogs, struct rect figure)
 {
+    struct core *core = dialogs->core;
     if (!history_is_saved(core->history)) dialogs->welcome = false;
     if (!dialogs->welcome) return;
     const struct card card = place_card(core, figure);
@@ -686,8 +690,9 @@ void dialogs_note(struct dialogs *dialogs, const struct event *event)
     }
 }
 
-void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt)
+void dialogs_advance(struct dialogs *dialogs, double dt)
 {
+    const struct core *core = dialogs->core;
     const float share = (float)(1 - maths_exp(-dt / GLIDE));
     struct pressed *pressed = &dialogs->pressed;
     pressed->pointer[0] += share * (core->input.pointer_x - pressed->pointer[0]);
@@ -695,14 +700,14 @@ void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt
     if (!pressed->is_down) pressed->seconds = fmax(pressed->seconds - dt, 0);
 }
 
-static bool shows_input(const struct dialogs *dialogs, const struct core *core)
+static bool shows_input(const struct dialogs *dialogs)
 {
-    return core->view.presenter.on || dialogs->pressed.is_demo;
+    return dialogs->core->view.presenter.on || dialogs->pressed.is_demo;
 }
 
-bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core)
+bool dialogs_want_frames(const struct dialogs *dialogs)
 {
-    return shows_input(dialogs, core) && dialogs->pressed.seconds > 0;
+    return shows_input(dialogs) && dialogs->pressed.seconds > 0;
 }
 
 /// A pill centred in the free part of the stage.
@@ -719,13 +724,14 @@ static void show_pill(struct core *core, float bottom, const char *text, float a
                       theme_fade(color, alpha), text);
 }
 
-void dialogs_show_input(const struct dialogs *dialogs, struct core *core)
+void dialogs_show_input(const struct dialogs *dialogs)
 {
+    struct core *core = dialogs->core;
     const struct pressed *pressed = &dialogs->pressed;
     const struct message *message = &core->message;
     float bottom = core->view.layout.open.y + core->view.layout.open.h - PILL_MARGIN;
     char text[sizeof pressed->text + 16];
-    if (!shows_input(dialogs, core)) return;
+    if (!shows_input(dialogs)) return;
     if (dialogs->caption[0]) {
         show_pill(core, bottom, dialogs->caption, 1, theme()->text);
         bottom -= PILL_HEIGHT + PILL_GAP;

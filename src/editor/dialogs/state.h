@@ -83,6 +83,7 @@ struct pressed {
 };
 
 struct dialogs {
+    struct core *core;
     struct command_list commands;
     struct dialog dialog;
     struct exporting exporting;
@@ -97,14 +98,14 @@ struct dialogs {
 void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path);
 void dialog_close(struct dialogs *dialogs);
 /// Carries out a request that had to wait; REQUEST_OPEN without a path asks for one.
-void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct request *after);
+void dialog_go_on(struct dialogs *dialogs, const struct request *after);
 /// Sends a request to the app; the dialog ignores input until dialogs_answer().
-void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
+void dialog_await(struct dialogs *dialogs, enum request_kind kind, const char *path);
 
 /// Typing searches, the wheel and drags scroll, Esc closes. In F1 arrows scroll, and Enter or a click closes. In the palette arrows choose,
 /// and Enter or a click runs a command. true for keys, text, buttons, drags and wheel while it is open.
-bool lookup_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
-void lookup_show(const struct dialogs *dialogs, struct core *core);
+bool lookup_event(struct dialogs *dialogs, const struct event *event);
+void lookup_show(const struct dialogs *dialogs);
 
 /// A press on the card, Esc, an edit or F1 closes it; true if the event is used.
 bool welcome_event(struct dialogs *dialogs, const struct event *event);
