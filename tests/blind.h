@@ -20,13 +20,12 @@ static inline void blind_open(struct blind *blind, const char *scene)
     *blind = (struct blind){.options = {.scene = scene, .headless = true}};
     app->options = &blind->options;
     app->fixed_clock = true;
-    app->ui_scale = 1;
+    app->figures.ui_scale = 1;
     app->platform = platform_blind(1280, 720, 1);
     app->work.history = history_create(NULL);
     app->work.models = models_create();
     font_init();
-    app->work.editor = editor_create();
-    app_connect_files(app);
+    app_open_editor(app);
     app_resize(app, 1280, 720, 1);
     assert_done(app_open(app, scene, &error));
 }

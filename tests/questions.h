@@ -6,15 +6,16 @@
 
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
+#include "editor/core/view.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/state.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/state.h"
-#include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/state.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
+#include "editor/state.h"
 #include "editor/transport/transport.h"
 
 // --- the status line and what is drawn ---
@@ -29,7 +30,9 @@ static inline void hush(struct editor *e) { e->core.message.text[0] = 0; }
 /// Gives the status line its figures.
 static inline void tell_figures(struct editor *e, double fps, double solve_us)
 {
-    e->core.status.told = (struct figures){fps, solve_us};
+    static struct figures figures;
+    figures = (struct figures){.fps = fps, .solve_us = solve_us, .ui_scale = 1};
+    e->core.app.figures = &figures;
 }
 static inline const struct tooltip *tooltip_of(const struct editor *e) { return &e->tooltip; }
 
@@ -63,9 +66,12 @@ static inline void offer_recovery(struct editor *e, const struct recovery_offer 
 {
     dialogs_offer_recovery(e->dialogs, offer);
 }
-static inline void list_files(struct editor *e, const struct dialog_files *files)
+/// Gives the dialogs an app's folders, recent files and formats.
+static inline void list_files(struct editor *e, const struct editor_app *app)
 {
-    dialogs_set_files(e->dialogs, files);
+    e->core.app.list = app->list;
+    e->core.app.recent = app->recent;
+    e->core.app.format_count = app->format_count;
 }
 /// F1's list or the palette.
 static inline struct lookup *lookup_of(const struct editor *e) { return &e->dialogs->lookup; }
@@ -99,7 +105,7 @@ static inline double shown_frame(const struct editor *e) { return core_frame(&e-
 static inline bool plays_part(const struct editor *e) { return playback_is_part(&e->core); }
 static inline enum look look(const struct editor *e) { return e->core.view.look; }
 static inline const struct overlays *overlays_of(const struct editor *e) { return &e->core.view.overlays; }
-static inline void set_path(struct editor *e, const char *path) { core_set_path(&e->core, path); }
+static inline void set_path(struct editor *e, const char *path) { history_set_path(e->core.history, path); }
 static inline const struct evaluation *solved(const struct editor *e) { return e->core.evaluation; }
 
 // --- curves and stage ---

@@ -16,12 +16,28 @@ struct session {
     struct document *document; ///< from `work`, like the next two
     struct history *history;
     struct editor *editor;
-    float x, y;    ///< pointer
-    unsigned mods; ///< of pointer and buttons
-    bool finger;   ///< is the pointer
-    char **saved;  ///< texts returned by session_saved()
+    struct request asked; ///< the last request that no test has taken
+    float x, y;           ///< pointer
+    unsigned mods;        ///< of pointer and buttons
+    bool finger;          ///< is the pointer
+    char **saved;         ///< texts returned by session_saved()
     int saved_count;
 };
+
+/// Keeps a request for the test, which answers it later.
+static inline void session_carry_out(void *user, const struct request *request)
+{
+    ((struct session *)user)->asked = *request;
+}
+
+/// Takes the last request.
+static inline struct request session_asked(struct session *session)
+{
+    const struct request asked = session->asked;
+    session->asked.kind = REQUEST_NONE;
+    session->asked.path[0] = '\0';
+    return asked;
+}
 
 static inline void session_send(struct session *session, struct event event)
 {
@@ -215,7 +231,7 @@ static inline void session_open(struct session *session, const char *scene)
     session->document = document_of_text(scene);
     session->history = history_create(session->document);
     assert_non_null(session->history);
-    session->editor = editor_create();
+    session->editor = editor_create(&(struct editor_app){.user = session, .carry_out = session_carry_out});
     show_more(session->editor, true); // shows everything in the inspector
     session->work = (struct workspace){.editor = session->editor,
                                        .document = session->document,

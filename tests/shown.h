@@ -2,7 +2,7 @@
 #ifndef TESTS_SHOWN_H
 #define TESTS_SHOWN_H
 
-#include "editor/editor.h"
+#include "editor/state.h"
 
 /// The last drawn text with this content (a dialog's, if one is open), or NULL.
 const struct draw_command *shown_text(const struct editor *editor, const char *text);

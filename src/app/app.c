@@ -27,11 +27,10 @@ static void read_models(struct workspace *work)
     if (!is_new && models_suit(work->models, work->document)) return;
     work->models_serial = work->document->serial;
     if (is_new) {
-        if (!scene_read_paint(work->document, &error)) core_message(&work->editor->core, true, "%s", error.text);
+        if (!scene_read_paint(work->document, &error)) editor_message(work->editor, true, "%s", error.text);
         if (!history_is_open(work->history)) history_amend(work->history);
     }
-    if (!models_update(work->models, work->document, &error))
-        core_message(&work->editor->core, true, "%s", error.text);
+    if (!models_update(work->models, work->document, &error)) editor_message(work->editor, true, "%s", error.text);
 }
 
 void workspace_edit(struct workspace *work, double dt, struct frame_row *row)
@@ -49,7 +48,7 @@ void workspace_solve(struct workspace *work, struct frame_row *row)
     struct evaluation *evaluation = &work->evaluation;
     row->edited = !evaluation_is_of(evaluation, work->document);
     evaluation->models = models_source(work->models);
-    evaluation_update(evaluation, work->document, work->editor->core.view.look == LOOK_CUBIC);
+    evaluation_update(evaluation, work->document, editor_shown(work->editor).look == LOOK_CUBIC);
     row->solver = evaluation_solver(evaluation);
     row->splines_solved = evaluation->solved_splines;
     row->samples = evaluation->solved_samples;
@@ -103,13 +102,13 @@ static bool has_room(const struct app *app, double scale)
 
 static double wanted_scale(const struct app *app, double chosen)
 {
-    return chosen * (app->work.editor->core.view.presenter.on ? PRESENTING : 1);
+    return chosen * (editor_shown(app->work.editor).presents ? PRESENTING : 1);
 }
 
 /// The chosen scale, or the largest step below it that fits. A window too small for any keeps its scale.
 static double fitting_scale(const struct app *app)
 {
-    const double most = wanted_scale(app, app->ui_scale);
+    const double most = wanted_scale(app, app->figures.ui_scale);
     if (most <= 1 || has_room(app, most)) return most;
     int step = STEPS - 1;
     while (scale_steps[step] > 1 && (scale_steps[step] > most || !has_room(app, scale_steps[step]))) step--;
@@ -122,7 +121,6 @@ void ui_scale_fit(struct app *app)
     const float shown = (float)app->ui_scale_shown;
     editor_resize(app->work.editor, fmaxf(app->display.width / shown, UI_LEAST_WIDTH),
                   fmaxf(app->display.height / shown, UI_LEAST_HEIGHT), app->display.scale * shown);
-    app->work.editor->core.view.ui_scale = app->ui_scale;
 }
 
 /// Call when presenting has started or ended.
@@ -146,17 +144,17 @@ bool ui_scale_step(struct app *app, int direction, struct error *error)
 {
     double next = 1;
     int step = 0;
-    while (step < STEPS - 1 && scale_steps[step] <= app->ui_scale) step++;
-    if (direction > 0) next = fmax(scale_steps[step], app->ui_scale);
-    while (step > 0 && scale_steps[step] >= app->ui_scale) step--;
-    if (direction < 0) next = fmin(scale_steps[step], app->ui_scale);
+    while (step < STEPS - 1 && scale_steps[step] <= app->figures.ui_scale) step++;
+    if (direction > 0) next = fmax(scale_steps[step], app->figures.ui_scale);
+    while (step > 0 && scale_steps[step] >= app->figures.ui_scale) step--;
+    if (direction < 0) next = fmin(scale_steps[step], app->figures.ui_scale);
     const double shown = wanted_scale(app, next);
-    if (next > app->ui_scale && shown > 1 && !has_room(app, shown)) {
+    if (next > app->figures.ui_scale && shown > 1 && !has_room(app, shown)) {
         return fail(error, ERROR_INPUT, "%.0f %% needs a window of %.0f × %.0f, not %.0f × %.0f", 100 * shown,
                     least_width(app) * shown, least_height(app) * shown, (double)app->display.width,
                     (double)app->display.height);
     }
-    app->ui_scale = next;
+    app->figures.ui_scale = next;
     ui_scale_update(app);
     return true;
 }
@@ -195,7 +193,6 @@ static void handle_event(struct app *app, const struct event *event)
         ui_scale_to_ui(app, &seen);
     }
     editor_event(app->work.editor, &seen);
-    app_requests(app);
 }
 
 static void play_events(struct app *app)
@@ -332,7 +329,7 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
 {
     struct draw_input input = {
         .keeps = !app->must_redraw && platform_keeps(app->platform),
-        .list = &app->work.editor->core.list,
+        .list = editor_shown(app->work.editor).list,
         .stage = editor_stage(app->work.editor),
         .frame = app->frame,
         .stage_scale = stage_scale,
@@ -395,7 +392,8 @@ static void end_frame(struct app *app)
     if (now - app->stats_time >= 0.5) {
         bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing runs in real time
         double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
-        app->work.editor->core.status.told = (struct figures){fps, row->solve_us};
+        app->figures.fps = fps;
+        app->figures.solve_us = row->solve_us;
         app->stats_time = now;
         app->stats_frame = app->frame;
         pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
@@ -428,8 +426,8 @@ void app_frame(struct app *app)
     if (app->failed || app->fetches) return;
     workspace_solve(work, row);
     workspace_pose(work, row);
-    const float scale = resolution_choose(&app->resolution, editor_stage(work->editor)->hash, resolution_now(app));
-    work->editor->core.status.stage_scale = scale;
+    app->figures.stage_scale =
+        resolution_choose(&app->resolution, editor_stage(work->editor)->hash, resolution_now(app));
     workspace_show(work, row);
     row->upload_us = row->draw_us = row->gpu_us = row->swap_us = NAN;
     row->uploaded_bytes = -1;
@@ -549,17 +547,6 @@ static void on_lost(void *user)
     fprintf(stderr, "wiggly live: %s\n", error.text);
 }
 
-void app_open_editor(struct app *app)
-{
-    editor_destroy(app->work.editor);
-    app->work.editor = editor_create();
-    app->work.editor->core.view.in_page = platform_in_page();
-    app->work.editor->core.view.still = app->options->still;
-    app->work.evaluation.solver = app->options->solver;
-    app_connect_files(app);
-    ui_scale_fit(app);
-}
-
 static bool start_app(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -582,7 +569,9 @@ static bool start_app(struct app *app, struct error *error)
     app->display.width = (float)width / scale;
     app->display.height = (float)height / scale;
     app->display.scale = scale;
-    app->ui_scale = o->ui_scale > 0 ? o->ui_scale : app->replay ? replay_get_header(app->replay)->ui_scale : 1;
+    app->figures.ui_scale = o->ui_scale > 0 ? o->ui_scale
+                            : app->replay   ? replay_get_header(app->replay)->ui_scale
+                                            : 1;
     if (!o->no_draw && !(app->draw = draw_create(scale, error))) return false;
     app_open_editor(app);
     app->work.models = models_create();
@@ -614,7 +603,7 @@ static bool start_app(struct app *app, struct error *error)
         struct replay_header header = {.width = (int)lroundf((float)width / scale),
                                        .height = (int)lroundf((float)height / scale),
                                        .scale = (double)scale,
-                                       .ui_scale = app->ui_scale,
+                                       .ui_scale = app->figures.ui_scale,
                                        .scene_hash = hash};
         if (!(app->recording = recording_open(o->record, &header, error))) return false;
     }
@@ -631,7 +620,7 @@ static bool start_app(struct app *app, struct error *error)
         if (!o->scene || !import_suits(o->scene)) file_forget_reads(o->scene); // the user may save it
         personal_start(app);
     }
-    if (o->welcome) dialogs_welcome(app->work.editor->dialogs);
+    if (o->welcome) dialogs_welcome(editor_dialogs(app->work.editor));
     return true;
 }
 

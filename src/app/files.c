@@ -140,15 +140,15 @@ void exporting_step(struct app *app)
     if (!job) return;
     enum film_state state = continue_job(job, app->fixed_clock);
     while (app->fixed_clock && state == FILM_RUNS) state = continue_job(job, true);
-    dialogs_tell_export(app->work.editor->dialogs, atomic_load(&job->done), atomic_load(&job->total));
+    dialogs_tell_export(editor_dialogs(app->work.editor), atomic_load(&job->done), atomic_load(&job->total));
     if (state == FILM_RUNS) return;
     const struct request *request = &job->request;
     const struct export_report *report = &job->report;
     const bool done = state == FILM_DONE, stopped = !done && atomic_load(&job->stop);
     editor_answer(app->work.editor, request, done, stopped ? "Cancelled. Nothing was written." : job->error.text);
     if (done) {
-        core_message(&app->work.editor->core, false, "Wrote %s: %s.%s%s%s", request->path, report->text,
-                     *report->note ? " Note: " : "", report->note, *report->note ? "." : "");
+        editor_message(app->work.editor, false, "Wrote %s: %s.%s%s%s", request->path, report->text,
+                       *report->note ? " Note: " : "", report->note, *report->note ? "." : "");
         personal_note_export(app, request);
     }
     app_stop_export(app);
@@ -219,7 +219,7 @@ static uint64_t changed_content(const struct app *app)
 /// Asks about a changed file. `saves`: the user tried to save, so the question replaces saving.
 static bool ask_changed(struct app *app, bool saves)
 {
-    return dialogs_ask_changed(app->work.editor->dialogs, path_name(app_path(app)), saves);
+    return dialogs_ask_changed(editor_dialogs(app->work.editor), path_name(app_path(app)), saves);
 }
 
 void file_watch_look(struct app *app)
@@ -261,8 +261,7 @@ void app_show_title(struct app *app)
     for (int r = 0; r < rigs && r < NAMED; r++) append(text, r ? ", " : "", rig_title(document->rigs[r]));
     append(text, end_of_names(rigs), ". Splines: ");
     for (int s = 0; s < splines && s < NAMED; s++) append(text, s ? ", " : "", document->splines[s]->name);
-    append(text, end_of_names(splines),
-           app->work.editor->core.view.playback.playing ? ". It plays." : ". It is paused.");
+    append(text, end_of_names(splines), editor_shown(app->work.editor).plays ? ". It plays." : ". It is paused.");
     const uint64_t hash = hash_bytes(HASH_START, text, strlen(text));
     if (hash != app->described) platform_describe(app->platform, text);
     app->described = hash;
@@ -280,7 +279,7 @@ void app_adopt(struct app *app, struct document *document)
     struct editor_world world = workspace_world(&app->work);
     editor_open(app->work.editor, &world);
     if (scene_has_meadow(document))
-        core_message(&app->work.editor->core, false, "Meadows are no longer shown; the file keeps them.");
+        editor_message(app->work.editor, false, "Meadows are no longer shown; the file keeps them.");
     show_title(app);
 }
 
@@ -363,9 +362,9 @@ static bool place_file(const struct app *app, const char *path, char placed[PATH
 static void tell_placed(struct app *app, const char *placed)
 {
     if (placed[0])
-        core_message(&app->work.editor->core, false, "Saved %s.", placed);
+        editor_message(app->work.editor, false, "Saved %s.", placed);
     else
-        core_message(&app->work.editor->core, false, "Nothing was written: a replay writes only with --saves DIR.");
+        editor_message(app->work.editor, false, "Nothing was written: a replay writes only with --saves DIR.");
 }
 
 static bool save(struct app *app, const char *path, struct error *error)
@@ -377,10 +376,9 @@ static bool save(struct app *app, const char *path, struct error *error)
     history_set_path(app->work.history, path);
     history_mark_saved(app->work.history);
     app->own_file.content = file_content(app_path(app));
-    core_set_path(&app->work.editor->core, app_path(app));
     show_title(app);
     personal_note_file(app, app_path(app));
-    core_message(&app->work.editor->core, false, "Saved.");
+    editor_message(app->work.editor, false, "Saved.");
     if (app->replay) tell_placed(app, placed);
     return true;
 }
@@ -456,9 +454,8 @@ static bool start_export(struct app *app, const struct request *request, struct 
     return true;
 }
 
-static bool carry_out(struct app *app, const struct request *request, struct error *error)
+static bool do_request(struct app *app, const struct request *request, struct error *error)
 {
-    struct core *core = &app->work.editor->core;
     switch (request->kind) {
     case REQUEST_NONE:
         return true;
@@ -485,9 +482,10 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return true;
     case REQUEST_ADD: {
         editor_let_go(app->work.editor);
-        core_step(core, "Add character", 0);
-        const bool added = import_add(app->work.document, request->path, core->focus.active, error);
+        history_begin(app->work.history, "Add character", 0);
+        const bool added = import_add(app->work.document, request->path, request->number, error);
         if (!added) history_restart(app->work.history);
+        history_end(app->work.history);
         editor_refresh(app->work.editor);
         if (added) editor_show_last(app->work.editor);
         return added;
@@ -532,7 +530,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return ui_scale_step(app, request->number, error);
     case REQUEST_COPY:
         // a replay must leave the user's clipboard alone
-        if (!app->replay) platform_set_clipboard(app->platform, core->clipboard);
+        if (!app->replay) platform_set_clipboard(app->platform, request->text);
         return true;
     case REQUEST_PASTE:
         app->paste = !app->replay; /* a replay has the text that was pasted when it was recorded */
@@ -541,19 +539,16 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     return true;
 }
 
-void app_requests(struct app *app)
+static void carry_out(void *user, const struct request *request)
 {
-    for (;;) {
-        const struct request request = editor_take_request(app->work.editor);
-        if (request.kind == REQUEST_NONE) return;
-        const bool saves = request.kind == REQUEST_SAVE ||
-                           (request.kind == REQUEST_SAVE_AS && strcmp(request.path, app_path(app)) == 0);
-        if (saves && changed_content(app) && ask_changed(app, true)) continue;
-        struct error error = {0};
-        const bool done = carry_out(app, &request, &error);
-        const bool goes_on = done && request.kind == REQUEST_EXPORT;
-        if (!goes_on) editor_answer(app->work.editor, &request, done, error.text);
-    }
+    struct app *app = user;
+    struct error error = {0};
+    const bool saves = request->kind == REQUEST_SAVE ||
+                       (request->kind == REQUEST_SAVE_AS && strcmp(request->path, app_path(app)) == 0);
+    if (saves && changed_content(app) && ask_changed(app, true)) return;
+    const bool done = do_request(app, request, &error);
+    const bool goes_on = done && request->kind == REQUEST_EXPORT;
+    if (!goes_on) editor_answer(app->work.editor, request, done, error.text);
 }
 
 enum { MAX_CLIPBOARD = 16 << 20 }; ///< bytes
@@ -562,9 +557,9 @@ const char *app_clipboard_text(struct app *app)
 {
     const char *text = platform_clipboard(app->platform);
     if (!text || !*text) {
-        core_message(&app->work.editor->core, false, "The clipboard has no text.");
+        editor_message(app->work.editor, false, "The clipboard has no text.");
     } else if (strlen(text) > MAX_CLIPBOARD) {
-        core_message(&app->work.editor->core, true, "The clipboard holds more than 16 MB, too much for knots.");
+        editor_message(app->work.editor, true, "The clipboard holds more than 16 MB, too much for knots.");
         text = NULL;
     }
     return text && *text ? text : NULL;
@@ -600,10 +595,17 @@ static int list_recent(void *user, struct dialog_recent *list, int max)
     return first + personal_recent(user, list + first, max - first);
 }
 
-void app_connect_files(struct app *app)
+void app_open_editor(struct app *app)
 {
-    dialogs_set_files(app->work.editor->dialogs, &(struct dialog_files){.list = list_folder,
-                                                                        .recent = list_recent,
-                                                                        .format_count = exporting_format_count(),
-                                                                        .user = app});
+    editor_destroy(app->work.editor);
+    app->work.editor = editor_create(&(struct editor_app){.user = app,
+                                                          .carry_out = carry_out,
+                                                          .list = list_folder,
+                                                          .recent = list_recent,
+                                                          .format_count = exporting_format_count(),
+                                                          .in_page = platform_in_page(),
+                                                          .still = app->options->still,
+                                                          .figures = &app->figures});
+    app->work.evaluation.solver = app->options->solver;
+    ui_scale_fit(app);
 }

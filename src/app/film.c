@@ -778,7 +778,7 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
     film->format = export_format(path);
     film->kind = writers[film->format->film].kind;
     film->path = path;
-    film->editor = editor_create();
+    film->editor = editor_create(NULL);
     if (file_check_place(path, error) && choose_shape(film, opened->document, options, error) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
         (film->file = film->kind->open(path, &film->shape, error))) {

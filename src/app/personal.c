@@ -19,10 +19,8 @@
 /// The settings other than files.
 struct choices {
     enum theme_kind theme;
-    double ui_scale, stage_share, inspector_width;
-    bool more;        ///< the inspector shows all sections
-    bool keep;        ///< an edit leaves what follows as it is
-    bool is_welcomed; ///< the card for new users was closed
+    double ui_scale;
+    struct editor_choices editor;
 };
 
 struct personal {
@@ -56,7 +54,7 @@ static bool make_folder(const char *variable, const char *below_home, char path[
 
 static void complain(struct app *app, const struct error *error)
 {
-    if (error->kind != ERROR_NONE) core_message(&app->work.editor->core, true, "%s", error->text);
+    if (error->kind != ERROR_NONE) editor_message(app->work.editor, true, "%s", error->text);
 }
 
 /// Reads the settings again before every change, because another window may have written them; locks them until written. NULL without a
@@ -80,43 +78,38 @@ static void store_settings(struct app *app, struct settings *settings)
 
 static struct choices choices_of(const struct app *app)
 {
-    const struct layout *layout = &app->work.editor->core.view.layout;
-    return (struct choices){.theme = theme_in_use(),
-                            .ui_scale = app->ui_scale,
-                            .stage_share = (double)layout->stage_share,
-                            .inspector_width = (double)layout->inspector_width,
-                            .more = app->work.editor->core.view.more,
-                            .keep = app->work.editor->core.step.keep,
-                            .is_welcomed = !dialogs_is_welcoming(app->work.editor->dialogs)};
+    return (struct choices){theme_in_use(), app->figures.ui_scale, editor_choices(app->work.editor)};
 }
 
 /// Saves changed settings. Panel sizes change during drags and are saved only at the end.
 static void note_choices(struct app *app, bool ends)
 {
     struct choices before = app->personal->choices, now = choices_of(app);
-    now.is_welcomed |= before.is_welcomed; // once closed, the card for new users stays closed
-    if (!ends) now.stage_share = before.stage_share, now.inspector_width = before.inspector_width;
-    const bool has_moved = now.stage_share != before.stage_share || now.inspector_width != before.inspector_width;
+    const struct editor_choices *was = &before.editor;
+    struct editor_choices *is = &now.editor;
+    is->is_welcomed |= was->is_welcomed; // once closed, the card for new users stays closed
+    if (!ends) is->stage_share = was->stage_share, is->inspector_width = was->inspector_width;
+    const bool has_moved = is->stage_share != was->stage_share || is->inspector_width != was->inspector_width;
     if (now.theme == before.theme && now.ui_scale == before.ui_scale && !has_moved &&
-        now.is_welcomed == before.is_welcomed && now.more == before.more && now.keep == before.keep)
+        is->is_welcomed == was->is_welcomed && is->more == was->more && is->keep == was->keep)
         return;
     app->personal->choices = now;
     struct settings *settings = open_settings(app);
     if (!settings) return;
     if (now.theme != before.theme) settings_set(settings, "theme", theme()->name);
     if (now.ui_scale != before.ui_scale) settings_set_number(settings, "ui_scale", now.ui_scale);
-    if (has_moved) settings_set_number(settings, "stage_share", now.stage_share);
-    if (has_moved) settings_set_number(settings, "inspector_width", now.inspector_width);
-    if (now.is_welcomed && !before.is_welcomed) settings_set_flag(settings, "welcomed", true);
-    if (now.more != before.more) settings_set_flag(settings, "more", now.more);
-    if (now.keep != before.keep) settings_set_flag(settings, "keep", now.keep);
+    if (has_moved) settings_set_number(settings, "stage_share", is->stage_share);
+    if (has_moved) settings_set_number(settings, "inspector_width", is->inspector_width);
+    if (is->is_welcomed && !was->is_welcomed) settings_set_flag(settings, "welcomed", true);
+    if (is->more != was->more) settings_set_flag(settings, "more", is->more);
+    if (is->keep != was->keep) settings_set_flag(settings, "keep", is->keep);
     store_settings(app, settings);
 }
 
 static void start_settings(struct app *app)
 {
     struct personal *personal = app->personal;
-    struct core *core = &app->work.editor->core;
+    struct editor_choices choices = editor_choices(app->work.editor);
     struct error error = {0};
     struct export_memory memory;
     char folder[PATH_LIMIT];
@@ -129,17 +122,18 @@ static void start_settings(struct app *app)
     const char *name = settings_get(settings, "theme");
     const int kind = name ? theme_find(name) : -1;
     if (kind >= 0 && !app->options->theme) theme_use((enum theme_kind)kind);
-    core_set_panels(core, settings_number(settings, "stage_share", (double)core->view.layout.stage_share),
-                    settings_number(settings, "inspector_width", (double)core->view.layout.inspector_width));
-    const double scale = settings_number(settings, "ui_scale", app->ui_scale);
-    if (!(app->options->ui_scale > 0)) app->ui_scale = fmin(fmax(scale, UI_SCALE_LEAST), UI_SCALE_MOST);
+    choices.stage_share = settings_number(settings, "stage_share", choices.stage_share);
+    choices.inspector_width = settings_number(settings, "inspector_width", choices.inspector_width);
+    choices.more = settings_flag(settings, "more", false);
+    choices.keep = settings_flag(settings, "keep", true);
+    choices.is_welcomed = settings_flag(settings, "welcomed", false);
+    editor_choose(app->work.editor, &choices);
+    const double scale = settings_number(settings, "ui_scale", app->figures.ui_scale);
+    if (!(app->options->ui_scale > 0)) app->figures.ui_scale = fmin(fmax(scale, UI_SCALE_LEAST), UI_SCALE_MOST);
     ui_scale_fit(app);
-    core->view.more = settings_flag(settings, "more", false);
-    core->step.keep = settings_flag(settings, "keep", true);
-    if (!settings_flag(settings, "welcomed", false)) dialogs_welcome(app->work.editor->dialogs);
     personal->choices = choices_of(app);
     export_memory_read(settings, app_path(app), &memory);
-    dialogs_set_export(app->work.editor->dialogs, &memory);
+    dialogs_set_export(editor_dialogs(app->work.editor), &memory);
     settings_free(settings);
     complain(app, &error);
 }
@@ -160,9 +154,8 @@ void personal_note_export(struct app *app, const struct request *request)
     store_settings(app, settings);
 }
 
-int personal_recent(void *user, struct dialog_recent *files, int most)
+int personal_recent(struct app *app, struct dialog_recent *files, int most)
 {
-    struct app *app = user;
     struct error error = {0};
     struct settings *settings = app->personal ? settings_load(app->personal->settings_path, &error) : NULL;
     int count = settings ? recent_list(settings, files, most) : 0;
@@ -188,9 +181,9 @@ static void offer(struct app *app)
     if (!personal->is_offered) {
         struct recovery_entry other;
         if (!named || !recovery_find(personal->state_folder, NULL, &other, NULL)) return;
-        core_message(&app->work.editor->core, false,
-                     "Unsaved work on %.*s is kept: start wiggly without a scene to recover it.",
-                     name_fit(name_of(&other), 255), name_of(&other));
+        editor_message(app->work.editor, false,
+                       "Unsaved work on %.*s is kept: start wiggly without a scene to recover it.",
+                       name_fit(name_of(&other), 255), name_of(&other));
         recovery_release(&other.slot);
         return;
     }
@@ -201,7 +194,7 @@ static void offer(struct app *app)
         snprintf(shown.when, sizeof shown.when, "an unknown day");
     }
     shown.others = count - 1;
-    dialogs_offer_recovery(app->work.editor->dialogs, &shown);
+    dialogs_offer_recovery(editor_dialogs(app->work.editor), &shown);
 }
 
 void personal_start(struct app *app)
@@ -237,7 +230,7 @@ void personal_update(struct app *app)
     struct autosave *autosave = app->personal->autosave;
     const struct autosave_work work = work_of(app);
     if (autosave && !autosave_update(autosave, &work, clock_now(), &error)) complain(app, &error);
-    editor_tell_unkept(app->work.editor, !work.saved && (!autosave || autosave_fails(autosave)));
+    app->figures.unkept = !work.saved && (!autosave || autosave_fails(autosave));
 }
 
 bool personal_is_behind(const struct app *app)

@@ -83,9 +83,9 @@ struct app {
     bool must_redraw; ///< the framebuffer does not hold the last frame
     struct {
         float width, height, scale;
-    } display;             ///< the window in the display's logical pixels; device pixels per logical pixel
-    double ui_scale;       ///< chosen size of the interface relative to the display's
-    double ui_scale_shown; ///< that size or what fits
+    } display;              ///< the window in the display's logical pixels; device pixels per logical pixel
+    struct figures figures; ///< for the status line
+    double ui_scale_shown;  ///< figures.ui_scale or what fits
     struct pace pace;
     struct resolution resolution;
     double process_start; ///< on this clock
@@ -106,7 +106,7 @@ void app_free(struct app *app);
 /// Runs one frame: input, edit, solve, pose, draw, log.
 void app_frame(struct app *app);
 
-/// Replaces the editor by a new one for the display's size.
+/// Replaces the editor by a new one for the display's size, and carries out its requests.
 void app_open_editor(struct app *app);
 
 /// Opens a scene file, or the built-in scene for NULL. On failure the document stays.
@@ -118,8 +118,6 @@ void app_adopt(struct app *app, struct document *document);
 /// Path of the document's file; "" if untitled.
 const char *app_path(const struct app *app);
 
-/// Carries out the editor's requests.
-void app_requests(struct app *app);
 /// Updates the window's title and its star for unsaved work.
 void app_show_title(struct app *app);
 
@@ -149,8 +147,8 @@ void personal_update(struct app *app);
 /// Whether unsaved work waits for personal_update().
 bool personal_is_behind(const struct app *app);
 
-/// The recent files; `user` is the app.
-dialog_list_recent personal_recent;
+/// Writes at most `most` recent files, newest first; returns how many.
+int personal_recent(struct app *app, struct dialog_recent *files, int most);
 
 /// Call when a document's file was opened or saved.
 void personal_note_file(struct app *app, const char *path);
@@ -172,9 +170,6 @@ void personal_end(struct app *app, bool keep);
 struct replay *demo_replay(struct error *error);
 /// Advances the demo by `dt` seconds; after the end it starts again.
 bool demo_next(struct app *app, double dt, struct error *error);
-
-/// Gives the editor's dialogs access to folders.
-void app_connect_files(struct app *app);
 
 // Exports in the background: a thread solves and writes a copy of the document; films are drawn frame by frame.
 

@@ -1,5 +1,4 @@
 /// The table of all commands, for keys, F1 and the palette; and the keyboard. docs/keys.md lists them.
-#include "editor/commands.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/rigs.h"
@@ -7,9 +6,9 @@
 #include "editor/core/view.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
-#include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
+#include "editor/state.h"
 #include "scene/parameter.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -75,9 +74,9 @@ static void run_clipboard(struct editor *e, int argument)
     if (argument == CLIPBOARD_DUPLICATE) {
         core_duplicate_knots(&e->core);
     } else if (argument == CLIPBOARD_PASTE) {
-        core_request(&e->core, REQUEST_PASTE, NULL);
+        core_request(&e->core, &(struct request){.kind = REQUEST_PASTE});
     } else if (core_copy_knots(&e->core, argument == CLIPBOARD_CUT)) {
-        core_request(&e->core, REQUEST_COPY, NULL);
+        core_request(&e->core, &(struct request){.kind = REQUEST_COPY, .text = e->core.clipboard});
     }
 }
 
@@ -460,12 +459,12 @@ void command_run(struct editor *editor, const struct command *command)
     const enum request_kind kind = request.kind;
     if (kind == REQUEST_NEW || kind == REQUEST_OPEN || kind == REQUEST_FIGURE || kind == REQUEST_QUIT) {
         editor_leave(editor, &request);
-    } else if (kind == REQUEST_SAVE_AS || (kind == REQUEST_SAVE && !core->path[0])) {
+    } else if (kind == REQUEST_SAVE_AS || (kind == REQUEST_SAVE && !core_path(core)[0])) {
         dialogs_save_as(editor->dialogs);
     } else if (kind == REQUEST_EXPORT) {
         dialogs_export(editor->dialogs);
     } else if (kind != REQUEST_NONE) {
-        core->request = request;
+        core_request(core, &request);
     }
 
     // The neighbouring pin if one is selected, else the knot, which the curves scroll to.

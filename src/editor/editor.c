@@ -1,7 +1,5 @@
 /// The editor's public functions: events, one frame, and names for places on the screen.
-#include "editor/editor.h"
 #include "base/need.h"
-#include "editor/commands.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
@@ -10,18 +8,23 @@
 #include "editor/dialogs/dialogs.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
+#include "editor/state.h"
 #include "editor/transport/transport.h"
 #include "ui/theme.h"
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 
-struct editor *editor_create(void)
+struct editor *editor_create(const struct editor_app *app)
 {
+    static const struct figures none = {.ui_scale = 1};
     struct editor *editor = need_zeroed(1, sizeof *editor);
+    if (app) editor->core.app = *app;
+    if (!editor->core.app.figures) editor->core.app.figures = &none;
     drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
     editor->curves = curves_create();
     editor->stage = stage_create(&editor->core);
@@ -32,7 +35,6 @@ struct editor *editor_create(void)
     editor->core.view.layout.inspector_width = THEME_INSPECTOR_WIDTH;
     editor->core.view.visible = 2;
     editor->core.focus.active = -1;
-    editor->core.view.ui_scale = 1;
     editor->core.focus.brush = (struct brush){.radius = 0.12, .strength = 0.4};
     editor->core.view.overlays.ghost = true;
     editor->core.step.keep = true;
@@ -106,13 +108,6 @@ static void end_event(struct editor *editor)
 
 void editor_show_poles(struct editor *editor) { inspector_unfold(editor->inspector, "section.poles"); }
 
-struct request editor_take_request(struct editor *editor)
-{
-    const struct request taken = editor->core.request;
-    editor->core.request = (struct request){.kind = REQUEST_NONE};
-    return taken;
-}
-
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
 {
     if (!dialogs_answer(editor->dialogs, request, ok, text) && !ok) core_message(&editor->core, true, "%s", text);
@@ -124,15 +119,46 @@ bool editor_wants_frames(const struct editor *editor)
     return editor->core.view.playback.playing || (dragged && dragged->goes_on) || stage_is_moving(editor->stage) ||
            editor->core.message.seconds_left > 0 || editor->core.unshown || editor->core.step.nudged_seconds > 0 ||
            presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs) ||
-           curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip);
+           curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip) ||
+           editor->core.app.figures->unkept != editor->core.status.unkept;
 }
 
 const struct stage_view *editor_stage(const struct editor *editor) { return stage_seen(editor->stage); }
 
-void editor_tell_unkept(struct editor *editor, bool unkept)
+void editor_message(struct editor *editor, bool is_error, const char *format, ...)
 {
-    editor->core.unshown |= unkept != editor->core.unkept;
-    editor->core.unkept = unkept;
+    char text[2 * sizeof editor->core.message.text];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    core_message(&editor->core, is_error, "%s", text);
+}
+
+struct dialogs *editor_dialogs(struct editor *editor) { return editor->dialogs; }
+
+struct editor_choices editor_choices(const struct editor *editor)
+{
+    const struct view *view = &editor->core.view;
+    return (struct editor_choices){.stage_share = (double)view->layout.stage_share,
+                                   .inspector_width = (double)view->layout.inspector_width,
+                                   .more = view->more,
+                                   .keep = editor->core.step.keep,
+                                   .is_welcomed = !dialogs_is_welcoming(editor->dialogs)};
+}
+
+void editor_choose(struct editor *editor, const struct editor_choices *choices)
+{
+    core_set_panels(&editor->core, choices->stage_share, choices->inspector_width);
+    editor->core.view.more = choices->more;
+    editor->core.step.keep = choices->keep;
+    if (!choices->is_welcomed) dialogs_welcome(editor->dialogs);
+}
+
+struct editor_shown editor_shown(const struct editor *editor)
+{
+    const struct core *core = &editor->core;
+    return (struct editor_shown){&core->list, core->view.look, core->view.playback.playing, core->view.presenter.on};
 }
 
 void editor_refresh(struct editor *editor)
@@ -179,7 +205,6 @@ static void editor_press(struct editor *editor, const struct event *event)
     }
 }
 
-/// Ends a running edit in the inspector first.
 void editor_leave(struct editor *editor, const struct request *request)
 {
     inspector_let_go(editor->inspector);
@@ -390,6 +415,7 @@ void editor_show(struct editor *editor)
     tooltip_offer(&editor->tooltip, text, x, y, is_focus ? ui->focus_rect : cursor);
     tooltip_show(&editor->tooltip, core->view.layout.window, &core->list);
     core->unshown = false;
+    core->status.unkept = core->app.figures->unkept;
 }
 
 enum mouse_cursor editor_cursor(const struct editor *editor)

@@ -2,34 +2,14 @@
 #ifndef EDITOR_EDITOR_H
 #define EDITOR_EDITOR_H
 
-#include "editor/core/core.h"
-#include "editor/core/view.h"
+#include "editor/core/app.h"
 #include "editor/dialogs/dialogs.h"
-#include "ui/tooltip.h"
+#include "ui/stage.h"
 
-/// The last key pressed in this frame. Its text event follows.
-struct press {
-    bool used;     ///< by a dialog, a drag or a field
-    bool repeated; ///< it is kept down
-    bool opened;   ///< it opened an overlay, which must not get its text
-};
+struct editor;
 
-struct editor {
-    struct core core;
-    struct curves *curves;
-    struct stage *stage;
-    struct inspector *inspector;
-    struct dialogs *dialogs;
-    struct ui status; ///< the controls in the status line
-    struct press press;
-    struct tooltip tooltip;
-    struct {
-        unsigned serial; ///< of the document
-        unsigned active; ///< id of the spline
-    } seen;              ///< by the panels
-};
-
-struct editor *editor_create(void);
+/// Copies `app`; NULL: there is none.
+struct editor *editor_create(const struct editor_app *app);
 void editor_destroy(struct editor *editor);
 
 /// Starts on a new document, which is not copied. Resets selection, view and playhead; the first editor_pose() fits the camera. The first
@@ -48,8 +28,6 @@ void editor_show_poles(struct editor *editor);
 
 /// Ends any drag, before the app edits.
 void editor_let_go(struct editor *editor);
-/// Carries out a request that leaves the document, after asking about unsaved work.
-void editor_leave(struct editor *editor, const struct request *request);
 
 /// Logical size of the window, and device pixels per logical pixel.
 void editor_resize(struct editor *editor, float width, float height, float scale);
@@ -67,15 +45,34 @@ void editor_show(struct editor *editor);
 void editor_pose_alone(struct editor *editor, double frame, float width, float height);
 const struct stage_view *editor_stage(const struct editor *editor);
 
-/// Takes the pending request, or REQUEST_NONE.
-struct request editor_take_request(struct editor *editor);
-
 /// Answers a request once it is done; every request gets an answer. If not `ok`, `text` says why. The dialog that asked closes, or shows
 /// the text so that the user can try again.
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text);
 
-/// `unkept`: unsaved work has no recovery file; the status line then shows a mark.
-void editor_tell_unkept(struct editor *editor, bool unkept);
+/// Shows a message in the status line: an error until the next key or click, others for some seconds.
+void editor_message(struct editor *editor, bool is_error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/// For what the app asks of the user.
+struct dialogs *editor_dialogs(struct editor *editor);
+
+/// What the user chose for all scenes.
+struct editor_choices {
+    double stage_share, inspector_width; ///< of the panels, see struct layout
+    bool more;                           ///< the inspector shows all sections
+    bool keep;                           ///< an edit leaves what follows as it is
+    bool is_welcomed;                    ///< the card for new users was closed
+};
+struct editor_choices editor_choices(const struct editor *editor);
+void editor_choose(struct editor *editor, const struct editor_choices *choices);
+
+/// What the app must know of it.
+struct editor_shown {
+    const struct drawlist *list; ///< of the last editor_show()
+    enum look look;
+    bool plays, presents;
+};
+struct editor_shown editor_shown(const struct editor *editor);
 
 /// Whether something is moving, so that the next frame must not wait for an event.
 bool editor_wants_frames(const struct editor *editor);

@@ -275,8 +275,9 @@ static const char *answer_to(struct blind *blind, enum request_kind kind, const 
 {
     struct core *core = &blind->app.work.editor->core;
     core->message = (struct message){0};
-    core_request(core, kind, path);
-    app_requests(&blind->app);
+    struct request request = {.kind = kind};
+    snprintf(request.path, sizeof request.path, "%s", path ? path : "");
+    core_request(core, &request);
     for (int i = 0; i < 2000 && !core->message.text[0]; i++) {
         blind_frame(blind);
         if (i > 1) nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL); // an export has a thread of its own

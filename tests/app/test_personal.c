@@ -33,7 +33,7 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
                           other = theme_find("light") == (int)before ? theme_find("dark") : theme_find("light");
     start(&blind);
     theme_use(other);
-    blind.app.ui_scale = 1.5;
+    blind.app.figures.ui_scale = 1.5;
     core_set_panels(&blind.app.work.editor->core, 0.4, 333);
     assert_false(blind.app.work.editor->core.view.more);
     blind_key(&blind, KEY_F9, 0);
@@ -45,7 +45,7 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
 
     start(&blind);
     assert_int_equal(theme_in_use(), other);
-    assert_near(blind.app.ui_scale, 1.5, 0);
+    assert_near(blind.app.figures.ui_scale, 1.5, 0);
     assert_true(blind.app.work.editor->core.view.more);
     assert_false(blind.app.work.editor->core.step.keep);
     assert_near(layout_of(blind.app.work.editor)->stage_share, 0.4, 1e-6);

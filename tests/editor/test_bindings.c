@@ -1,5 +1,5 @@
 /// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
-#include "editor/commands.h"
+#include "editor/state.h"
 #include "panel_session.h"
 
 static const char scene[] =

@@ -20,7 +20,7 @@ static void paste(struct session *s, const char *text)
 static char *copy(struct session *s, int key)
 {
     session_key(s, key, MOD_CTRL);
-    assert_int_equal(editor_take_request(s->editor).kind, REQUEST_COPY);
+    assert_int_equal(session_asked(s).kind, REQUEST_COPY);
     char *text = strdup(copied(s->editor));
     assert_non_null(text);
     return text;
@@ -128,7 +128,7 @@ SESSION_TEST(test_copy_and_paste_at_the_playhead, session_open(s, FIVE))
     session_click(s, "ruler(70)");
     const char *original = session_saved(s);
     session_key(s, 'V', MOD_CTRL);
-    assert_int_equal(editor_take_request(s->editor).kind, REQUEST_PASTE);
+    assert_int_equal(session_asked(s).kind, REQUEST_PASTE);
     paste(s, text);
     assert_int_equal(sway(s)->knot_count, 7);
     assert_near(sway(s)->knots[5].frame, 70, 0);

@@ -30,12 +30,12 @@ static int list_recent(void *user, struct dialog_recent *files, int most)
 static void open_session(struct session *session)
 {
     panel_open(session, scene, 960, 600);
-    list_files(session->editor, &(struct dialog_files){.list = list_names, .recent = list_recent});
+    list_files(session->editor, &(struct editor_app){.list = list_names, .recent = list_recent});
 }
 
 static void expect_request(struct session *session, enum request_kind kind, const char *path)
 {
-    struct request request = editor_take_request(session->editor);
+    struct request request = session_asked(session);
     assert_int_equal(request.kind, kind);
     assert_string_equal(request.path, path);
 }

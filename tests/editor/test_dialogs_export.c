@@ -14,7 +14,7 @@ static struct exporting *of(struct session *s) { return &s->editor->dialogs->exp
 static void open_other(struct session *s, const char *text, const char *path, float width, float height)
 {
     panel_open(s, text, width, height);
-    list_files(s->editor, &(struct dialog_files){.format_count = exporting_format_count()});
+    list_files(s->editor, &(struct editor_app){.format_count = exporting_format_count()});
     set_path(s->editor, path);
     session_key(s, 'E', MOD_CTRL);
     assert_int_equal(dialog_of(s->editor)->kind, DIALOG_EXPORT);
@@ -51,7 +51,7 @@ static void enter(struct session *s, const char *word, float right, const char *
 
 static struct request asked_for(struct session *s)
 {
-    struct request request = editor_take_request(s->editor);
+    struct request request = session_asked(s);
     assert_int_equal(request.kind, REQUEST_EXPORT);
     return request;
 }
@@ -83,7 +83,7 @@ TEST(test_a_character_keeps_its_file)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct session s;
         panel_open(&s, with_dog, 1280, 720);
-        list_files(s.editor, &(struct dialog_files){.format_count = exporting_format_count()});
+        list_files(s.editor, &(struct editor_app){.format_count = exporting_format_count()});
         set_path(s.editor, cases[i].path);
         session_key(&s, 'E', MOD_CTRL);
         session_key(&s, KEY_ENTER, 0);
@@ -225,15 +225,15 @@ SESSION_TEST(test_cancelling, open_session(s, "walk.json", 1280, 720))
     panel_type(s, "x");
     assert_string_equal(of(s)->memory.path, "walk.glb");
     session_key(s, KEY_ESCAPE, 0);
-    assert_int_equal(editor_take_request(s->editor).kind, REQUEST_EXPORT_STOP);
+    assert_int_equal(session_asked(s).kind, REQUEST_EXPORT_STOP);
     click(s, "Cancel");
-    assert_int_equal(editor_take_request(s->editor).kind, REQUEST_EXPORT_STOP);
+    assert_int_equal(session_asked(s).kind, REQUEST_EXPORT_STOP);
     panel_answer(s, REQUEST_EXPORT, false, "Cancelled. Nothing was written.");
     session_frame(s);
     assert_non_null(shown_text(s->editor, "Cancelled. Nothing was written."));
     session_key(s, KEY_ESCAPE, 0);
     assert_int_equal(dialog_of(s->editor)->kind, DIALOG_NONE);
-    assert_int_equal(editor_take_request(s->editor).kind, REQUEST_NONE);
+    assert_int_equal(session_asked(s).kind, REQUEST_NONE);
 }
 
 /// Esc belongs to a number while it is typed.
@@ -259,7 +259,7 @@ SESSION_TEST(test_remembered, open_session(s, "walk.json", 1280, 720))
     set_path(s->editor, "work/run.json");
     session_key(s, 'E', MOD_CTRL);
     assert_non_null(shown_text(s->editor, "work/run.webm")); // its own name, in the format of last time
-    for (int format = 0; format < dialog_of(s->editor)->files.format_count; format++) { // whichever that was
+    for (int format = 0; format < dialog_of(s->editor)->app->format_count; format++) { // whichever that was
         const char *ending = export_formats[format].ending;
         struct export_memory memory = {.path = "films/first"};
         strncat(memory.path, ending, 16);

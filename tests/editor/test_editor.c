@@ -341,7 +341,7 @@ TEST(test_a_monkey_can_be_undone)
         for (int i = 0; i < 1500; i++) {
             monkey(&s);
             if (below(3) == 0) session_frame(&s);
-            editor_take_request(s.editor);
+            session_asked(&s);
         }
         for (int i = 0; i < 4; i++) {
             session_key(&s, KEY_ESCAPE, 0);

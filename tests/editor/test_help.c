@@ -1,5 +1,5 @@
 /// The table of commands: what it says is true, F1 shows all of it, and docs/keys.md names the same keys.
-#include "editor/commands.h"
+#include "editor/state.h"
 #include "panel_session.h"
 #include "shown.h"
 

@@ -120,14 +120,14 @@ SESSION_TEST(test_a_chain_goes_with_its_splines,
 /// The file dialog asks the app for it; a bad file leaves a sentence and the document as it was.
 SESSION_TEST(test_a_file_is_asked_for, panel_open(s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720))
 {
-    while (editor_take_request(s->editor).kind != REQUEST_NONE) continue;
+    session_asked(s);
     const char *before = session_saved(s);
     session_key(s, 'A', 0);
     panel_click(s, "item.file");
     assert_int_equal(asked(s->editor), DIALOG_ADD);
     session_type(s, "no.glb");
     session_key(s, KEY_ENTER, 0);
-    const struct request request = editor_take_request(s->editor);
+    const struct request request = session_asked(s);
     assert_int_equal(request.kind, REQUEST_ADD);
     assert_string_equal(request.path, "no.glb");
     panel_answer(s, REQUEST_ADD, false, "no.glb: cannot be read");

@@ -99,10 +99,7 @@ static void open_recover(struct session *s)
     offer_recovery(s->editor, &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 2});
 }
 
-static void open_changed(struct session *s)
-{
-    dialogs_ask_changed(s->editor->dialogs, "walk.json", true);
-}
+static void open_changed(struct session *s) { dialogs_ask_changed(s->editor->dialogs, "walk.json", true); }
 
 /// A long name beside the figures.
 static void open_busy(struct session *s)
@@ -209,7 +206,7 @@ static int walk(const char *scene, const struct screen *screen, const float size
              (double)size[1], (double)size[2]);
     session_open(&s, scene);
     editor_resize(s.editor, size[0], size[1], size[2]);
-    list_files(s.editor, &(struct dialog_files){.list = list_names, .recent = list_recent});
+    list_files(s.editor, &(struct editor_app){.list = list_names, .recent = list_recent});
     session_frame(&s);
     screen->open(&s);
     session_frame(&s);

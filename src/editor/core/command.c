@@ -76,9 +76,9 @@ static bool is_met(const struct core *core, enum need need)
     case NEEDS_PAINT:
         return characters_coordinate(core);
     case NEEDS_PAGE:
-        return core->view.in_page;
+        return core->app.in_page;
     case NEEDS_NO_PAGE:
-        return !core->view.in_page;
+        return !core->app.in_page;
     case NEEDS_NOTHING:
     case NEEDS_COUNT:
         break;

@@ -54,7 +54,6 @@ void core_open(struct core *core)
     core->input.space_down = false;
     core->message = (struct message){0};
     core->serial = document->serial;
-    core_set_path(core, document->path ? document->path : "");
 
     const struct character_rig *character = document_character(document, 0);
     const int phases = character ? character->phases : -1;
@@ -73,15 +72,16 @@ void core_open(struct core *core)
         core->view.playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
         for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) core->step.auto_key |= rig->tail.position[k].track >= 0;
     }
-    if (core->view.still) core->view.playback.playing = false;
+    if (core->app.still) core->view.playback.playing = false;
 }
 
 static const double MESSAGE_SECONDS = 5;
 
-void core_set_path(struct core *core, const char *path)
+const char *core_path(const struct core *core) { return core->document->path ? core->document->path : ""; }
+
+const char *core_title(const struct core *core)
 {
-    snprintf(core->path, sizeof core->path, "%s", path);
-    snprintf(core->title, sizeof core->title, "%s", path[0] ? path_name(path) : "untitled");
+    return core->document->path ? path_name(core->document->path) : "untitled";
 }
 
 void core_edited(struct core *core, int spline)
@@ -243,10 +243,10 @@ void core_jump(struct core *core, size_t done)
     core_message(core, false, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
 }
 
-void core_request(struct core *core, enum request_kind kind, const char *path)
+void core_request(struct core *core, const struct request *request)
 {
-    core->request = (struct request){.kind = kind};
-    snprintf(core->request.path, sizeof core->request.path, "%s", path ? path : "");
+    core_close(core);
+    if (core->app.carry_out) core->app.carry_out(core->app.user, request);
 }
 
 struct question *core_ask(struct core *core, const struct answer *answers, int count,

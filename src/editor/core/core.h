@@ -7,8 +7,9 @@
 
 /// Resets selection, playhead and views for a new document.
 void core_open(struct core *core);
-/// Sets the path of the document's file, or "".
-void core_set_path(struct core *core, const char *path);
+/// The path of the document's file, or ""; its name, or "untitled".
+const char *core_path(const struct core *core);
+const char *core_title(const struct core *core);
 /// Notes an edit of a spline, or of its selected knots if it is -1.
 void core_edited(struct core *core, int spline);
 /// Opens the undo step for the edits that follow, and clears the last message; `merge` as in history_begin(). The end of the event closes it.
@@ -35,8 +36,8 @@ void core_refresh(struct core *core);
 void core_undo(struct core *core, int direction);
 /// Undoes or redoes until `done` steps are done.
 void core_jump(struct core *core, size_t done);
-/// `path` may be NULL.
-void core_request(struct core *core, enum request_kind kind, const char *path);
+/// Closes the undo step of this event, then the app carries out a request. It may replace the document.
+void core_request(struct core *core, const struct request *request);
 /// A question to ask after the event; the caller fills in its text.
 struct question *core_ask(struct core *core, const struct answer *answers, int count,
                           void (*answered)(void *core, int answer));

@@ -1,9 +1,9 @@
-/// State of the editor and its panels: layout, selection, playback, hover, views, requests to the app. Knots are stored by id, splines and
+/// State of the editor and its panels: layout, selection, playback, hover, views. Knots are stored by id, splines and
 /// tails by index.
 #ifndef EDITOR_CORE_STATE_H
 #define EDITOR_CORE_STATE_H
 
-#include "base/file.h"
+#include "editor/core/app.h"
 #include "rig/models.h"
 #include "rig/posing.h"
 #include "scene/edit.h"
@@ -15,64 +15,6 @@
 #include <stdint.h>
 
 enum { CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
-
-/// What the app lends to the editor.
-struct editor_world {
-    struct document *document;
-    struct history *history;
-    const struct evaluation *evaluation; ///< of the last solve; until editor_show() that is the previous frame's
-    const struct models *models;         ///< NULL: none
-};
-
-/// A request the app carries out after the event, mostly about files and windows.
-enum request_kind {
-    REQUEST_NONE,
-    REQUEST_NEW,
-    REQUEST_OPEN,      ///< path
-    REQUEST_ADD,       ///< path: a character or model for this scene
-    REQUEST_SAVE,      ///< to the document's path; asks if it has none
-    REQUEST_SAVE_AS,   ///< path
-    REQUEST_OVERWRITE, ///< the document's file, which another program changed
-    REQUEST_KEEP_MINE, ///< keeps the document; the next REQUEST_SAVE overwrites the file
-    REQUEST_THEIRS,    ///< loads the document's changed file, in one undo step
-    REQUEST_FIGURE,    ///< number: of the paper's figure or built-in scene
-    REQUEST_QUIT,
-    REQUEST_RECOVER, ///< offered unsaved work
-    REQUEST_FORGET,  ///< deletes that work
-    REQUEST_SHARE,   ///< a link to the scene
-    REQUEST_SCREENSHOT,
-    REQUEST_FULLSCREEN,
-    REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 the display's own
-    REQUEST_COPY,        ///< core.clipboard to the clipboard
-    REQUEST_PASTE,       ///< answered by EVENT_PASTE
-    REQUEST_EXPORT,      ///< path, wish; answered when done
-    REQUEST_EXPORT_STOP, ///< stops the running export, which then answers
-};
-
-/// Export options. A format ignores those it does not have. Zero: defaults.
-struct export_wish {
-    bool part; ///< only these frames
-    double first, last;
-    int keys;          ///< per frame; 0: the scene's substeps
-    int width, height; ///< of pictures; 0: the format's default
-    unsigned rig;      ///< its id; 0: all
-    char clip[256];    ///< of the animation; "": the scene's
-    bool is_cubic, is_signed, all_clips, transparent;
-};
-
-struct request {
-    enum request_kind kind;
-    int number;
-    char path[PATH_LIMIT];
-    struct export_wish wish;
-};
-
-/// Unsaved work of an earlier run.
-struct recovery_offer {
-    char name[256]; ///< of its document
-    char when[64];  ///< date and time
-    int others;     ///< number of older ones
-};
 
 /// The panels' rectangles in logical pixels, from core_layout().
 struct layout {
@@ -205,16 +147,11 @@ struct message {
     double seconds_left; ///< for messages that are not errors
 };
 
-/// Performance in the status line.
-struct figures {
-    double fps, solve_us; ///< frames per second, µs of solving
-};
-
 struct status {
-    struct figures told, shown; ///< latest from the app; displayed
-    double age;                 ///< seconds since `shown` was updated
-    long dropped;               ///< as shown
-    float stage_scale;          ///< resolution of the stage per side relative to the window's; 0 means 1
+    struct figures shown; ///< the app's of a moment ago
+    double age;           ///< seconds since
+    long dropped;         ///< as shown
+    bool unkept;          ///< as shown
 };
 
 enum { CORE_MAX_EDITED = 8 };
@@ -237,7 +174,8 @@ struct question {
     char title[320];
     char note[256]; ///< smaller text below; an error replaces it
     const struct answer *answers;
-    int count;
+    int count; ///< of answers; 0: no question
+    bool adds; ///< asks for the file of a character to add instead
     void *of;
     void (*answered)(void *of, int answer); ///< called for any answer but the last
 };
@@ -368,7 +306,6 @@ struct input {
 struct view {
     struct layout layout;
     float scale;
-    double ui_scale; ///< the user's share of it
     struct presenter presenter;
     struct playback playback;
     int seen_first, seen_substeps; ///< of the scene, as the playhead counts
@@ -379,8 +316,6 @@ struct view {
     unsigned visibility;           ///< grows when these change
     double visible;                ///< height of the visible values
     bool more;                     ///< the inspector shows everything
-    bool in_page;                  ///< the app runs in a browser
-    bool still;                    ///< no scene plays by itself
     bool plain;                    ///< the stage without text
     bool refit_stage;              ///< editor_pose() fits the camera: what an edit adds has no place before
     bool refit_curves;             ///< it shows all curves: they have no values before the solve
@@ -392,10 +327,7 @@ struct core {
     struct history *history;
     const struct evaluation *evaluation;
     const struct models *models;
-    unsigned serial;       ///< of the document
-    char title[256];       ///< file name, or "untitled"
-    char path[PATH_LIMIT]; ///< of the document's file, or ""
-    bool unkept;           ///< unsaved work has no recovery file
+    unsigned serial; ///< of the document
     struct take take;
 
     struct step step;
@@ -403,19 +335,19 @@ struct core {
     struct input input;
     struct view view;
 
-    // The inspector, which other panels do not know: set by editor_create().
+    // The app, and the inspector, which other panels do not know: set by editor_create().
+    struct editor_app app;
     struct inspector *inspector;
     void (*show_clicked)(struct inspector *inspector, int rig);
 
-    // What it says, and asks of the user and the app.
+    // What it says, and asks the user.
     struct drawlist list;
     struct message message;
     struct status status;
     bool unshown;             ///< the status line must be redrawn
-    struct question question; ///< to ask next; no answers: none
+    struct question question; ///< to ask after the event: it ends an edit that the inspector may be in
     struct subject subject;
-    struct request request; ///< for the app, after the event
-    char *clipboard;        ///< copied knots as text, or NULL
+    char *clipboard; ///< copied knots as text, or NULL
 };
 
 #endif

@@ -45,18 +45,12 @@ static int question_key(struct dialog *dialog, int key)
 
 bool dialogs_ask(struct dialogs *dialogs)
 {
-    struct core *core = dialogs->core;
-    const bool adds = core->request.kind == REQUEST_ADD && !core->request.path[0];
-    if (adds) {
-        core->request.kind = REQUEST_NONE;
-        dialog_open(dialogs, DIALOG_ADD, "");
-    } else if (core->question.count > 0) {
-        dialogs->dialog.question = core->question;
-        core->question.count = 0;
-        dialog_open(dialogs, DIALOG_ASK, "");
-        return true;
-    }
-    return adds;
+    const struct question question = dialogs->core->question;
+    if (question.count == 0 && !question.adds) return false;
+    dialogs->core->question = (struct question){.count = 0};
+    dialogs->dialog.question = question;
+    dialog_open(dialogs, question.adds ? DIALOG_ADD : DIALOG_ASK, "");
+    return true;
 }
 
 /// A question of the dialogs with these answers and still without a text.
@@ -77,8 +71,8 @@ static void answer_unsaved(void *of, int answer)
     if (answer == UNSAVED_DISCARD) {
         dialog_close(dialogs);
         dialog_go_on(dialogs, &after);
-    } else if (dialogs->core->path[0]) {
-        dialog_await(dialogs, REQUEST_SAVE, NULL);
+    } else if (core_path(dialogs->core)[0]) {
+        dialog_await(dialogs, REQUEST_SAVE, "");
     } else {
         dialogs_save_as(dialogs);
     }
@@ -93,7 +87,7 @@ void dialogs_leave(struct dialogs *dialogs, const struct request *after)
         return;
     }
     *question = QUESTION(unsaved_answers, answer_unsaved);
-    snprintf(question->title, sizeof question->title, "%s has unsaved changes", core->title);
+    snprintf(question->title, sizeof question->title, "%s has unsaved changes", core_title(core));
     snprintf(question->note, sizeof question->note,
              "Save them, or they will be lost. S saves, D discards, Esc cancels.");
     dialog_open(dialogs, DIALOG_UNSAVED, "");
@@ -115,7 +109,7 @@ static void answer_changed(void *of, int answer)
         dialogs_save_as(dialogs);
     } else {
         const enum request_kind mine = dialogs->dialog.saving ? REQUEST_OVERWRITE : REQUEST_KEEP_MINE;
-        dialog_await(dialogs, answer == CHANGED_MINE ? mine : REQUEST_THEIRS, NULL);
+        dialog_await(dialogs, answer == CHANGED_MINE ? mine : REQUEST_THEIRS, "");
     }
 }
 
@@ -144,7 +138,7 @@ static const struct answer recover_answers[] = {
 
 static void answer_recovery(void *of, int answer)
 {
-    dialog_await(of, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
+    dialog_await(of, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, "");
 }
 
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)
@@ -172,10 +166,10 @@ static const float FRAME_HEIGHT = 300;
 static bool is_running(const struct dialog *dialog) { return dialog->awaited == REQUEST_EXPORT; }
 
 /// The format of a path's extension, or -1.
-static int format_by_ending(const struct dialog_files *files, const char *path)
+static int format_by_ending(const struct editor_app *app, const char *path)
 {
     const struct export_format *format = export_format(path);
-    return format && format - export_formats < files->format_count ? (int)(format - export_formats) : -1;
+    return format && format - export_formats < app->format_count ? (int)(format - export_formats) : -1;
 }
 
 static const struct export_format *format_of(const struct dialogs *dialogs)
@@ -184,10 +178,10 @@ static const struct export_format *format_of(const struct dialogs *dialogs)
 }
 
 /// Replaces a path's extension by a format's; false if the path gets too long.
-static bool with_ending(const struct dialog_files *files, const char *path, int format, char full[PATH_LIMIT])
+static bool with_ending(const struct editor_app *app, const char *path, int format, char full[PATH_LIMIT])
 {
     const size_t length = strlen(path);
-    const int old = format_by_ending(files, path);
+    const int old = format_by_ending(app, path);
     const size_t stem = old >= 0 ? length - strlen(export_formats[old].ending) : length;
     return snprintf(full, PATH_LIMIT, "%.*s%s", (int)stem, path, export_formats[format].ending) < PATH_LIMIT;
 }
@@ -196,7 +190,7 @@ static void choose_format(struct dialogs *dialogs, int format)
 {
     struct exporting *exporting = &dialogs->exporting;
     char full[PATH_LIMIT];
-    if (with_ending(&dialogs->dialog.files, exporting->memory.path, format, full))
+    if (with_ending(dialogs->dialog.app, exporting->memory.path, format, full))
         memcpy(exporting->memory.path, full, sizeof full);
     exporting->format = format;
     exporting->typed = 0; // reload the text into the field
@@ -217,24 +211,25 @@ void dialogs_export(struct dialogs *dialogs)
     const struct core *core = dialogs->core;
     struct exporting *exporting = &dialogs->exporting;
     struct export_memory *memory = &exporting->memory;
-    const struct dialog_files *files = &dialogs->dialog.files;
+    const struct editor_app *app = dialogs->dialog.app;
     const struct document *document = core->document;
-    if (files->format_count == 0) return;
-    const int last = format_by_ending(files, memory->path);
+    if (app->format_count == 0) return;
+    const int last = format_by_ending(app, memory->path);
     if (last >= 0) exporting->format = last;
-    const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
+    const bool same =
+        core_path(core)[0] ? strcmp(memory->scene, core_path(core)) == 0 : exporting->serial == core->serial;
     if (!same || !memory->path[0]) { // keeps the last format
         // Named after the scene, or else after the character, but never like that character's own file.
         char scene[PATH_LIMIT], own[PATH_LIMIT];
         const int model = document_find_rig(document, RIG_MODEL, 0);
         const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model]->model.model, own);
-        const char *like = core->path[0] ? core->path : has_model ? own : "untitled";
+        const char *like = core_path(core)[0] ? core_path(core) : has_model ? own : "untitled";
         char *path = memory->path;
         snprintf(path, PATH_LIMIT, "%.*s", PATH_LIMIT - STEM_MORE, like);
         if (path_has_end(path, ".json")) path[strlen(path) - strlen(".json")] = '\0';
-        if (has_model && (like == own || (stem_of(NULL, core->path, scene) && strcmp(scene, own) == 0)))
+        if (has_model && (like == own || (stem_of(NULL, core_path(core), scene) && strcmp(scene, own) == 0)))
             strcat(path, "-animated");
-        snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
+        snprintf(memory->scene, sizeof memory->scene, "%s", core_path(core));
         choose_format(dialogs, exporting->format);
         memory->wish.part = false;
         memory->wish.clip[0] = '\0';
@@ -275,19 +270,18 @@ static void confirm_export(struct dialogs *dialogs)
         snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
         return;
     }
-    if (!with_ending(&dialog->files, memory->path, dialogs->exporting.format, full)) {
+    if (!with_ending(dialog->app, memory->path, dialogs->exporting.format, full)) {
         snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
         return;
     }
     dialogs->exporting.done = dialogs->exporting.total = 0;
     dialog_await(dialogs, REQUEST_EXPORT, full);
-    dialogs->core->request.wish = memory->wish;
 }
 
 static void stop(struct dialogs *dialogs)
 {
     if (is_running(&dialogs->dialog)) {
-        core_request(dialogs->core, REQUEST_EXPORT_STOP, NULL);
+        core_request(dialogs->core, &(struct request){.kind = REQUEST_EXPORT_STOP});
     } else {
         dialog_close(dialogs);
     }
@@ -298,7 +292,7 @@ static bool export_key(struct dialogs *dialogs, int key)
 {
     const struct ui *ui = &dialogs->dialog.ui;
     const bool in_text = ui->focus == ui_id(ui, path_field) || ui->focus == ui_id(ui, clip_field);
-    const int format = dialogs->exporting.format, last = dialogs->dialog.files.format_count - 1;
+    const int format = dialogs->exporting.format, last = dialogs->dialog.app->format_count - 1;
     if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
         stop(dialogs);
     } else if (is_running(&dialogs->dialog)) {
@@ -532,7 +526,7 @@ static void export_build(struct dialogs *dialogs)
     enum { CANCEL_WIDTH = 104, WRITE_WIDTH = 240 };
     struct exporting *exporting = &dialogs->exporting;
     struct export_memory *memory = &exporting->memory;
-    const struct dialog_files *files = &dialogs->dialog.files;
+    const struct editor_app *app = dialogs->dialog.app;
     struct ui *ui = &dialogs->dialog.ui;
     if (is_running(&dialogs->dialog)) {
         char title[96];
@@ -543,11 +537,11 @@ static void export_build(struct dialogs *dialogs)
         ui_label(ui, ui_row(ui, UI_ROW), "Export the motion", theme()->text);
         ui_space(ui, 4);
         if (build_text(dialogs, ui_row(ui, 28), path_field, memory->path, PATH_LIMIT)) {
-            const int format = format_by_ending(files, memory->path);
+            const int format = format_by_ending(app, memory->path);
             if (format >= 0) exporting->format = format;
         }
         ui_space(ui, 8);
-        const int fitting = (int)((core->view.layout.window.h - FRAME_HEIGHT) / UI_ROW), most = files->format_count;
+        const int fitting = (int)((core->view.layout.window.h - FRAME_HEIGHT) / UI_ROW), most = app->format_count;
         const int rows = fitting < LEAST_ROWS ? LEAST_ROWS : fitting > most ? most : fitting;
         const int chosen = exporting->format;
         const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
@@ -581,7 +575,7 @@ static void export_build(struct dialogs *dialogs)
     const struct rect right = {row.x + row.w - width, row.y, width, row.h};
     const float end = running ? row.x + row.w : right.x - UI_GAP;
     const struct rect left = {end - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
-    with_ending(files, memory->path, exporting->format, full);
+    with_ending(app, memory->path, exporting->format, full);
     snprintf(label, sizeof label, "Write %.48s", path_name(full));
     const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
     if (!running && ui_button(ui, right, "dialog.confirm", label, true)) confirm_export(dialogs);
@@ -609,10 +603,10 @@ static void dialog_match(struct dialog *dialog)
     const char *name = path_name(dialog->ui.text.bytes);
     snprintf(folder, sizeof folder, "%.*s", (int)(name - dialog->ui.text.bytes), dialog->ui.text.bytes);
     if (dialog->name_count < 0 || strcmp(folder, dialog->listed) != 0) {
-        const struct dialog_files *files = &dialog->files;
+        const struct editor_app *app = dialog->app;
         const char *at = *folder ? folder : ".";
         snprintf(dialog->listed, sizeof dialog->listed, "%s", folder);
-        const int count = files->list ? files->list(files->user, at, dialog->names, DIALOG_MAX_NAMES) : 0;
+        const int count = app->list ? app->list(app->user, at, dialog->names, DIALOG_MAX_NAMES) : 0;
         dialog->name_count = count > 0 ? count : 0;
     }
     dialog->match_count = 0;
@@ -646,8 +640,8 @@ void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *pat
     ui_text_set(&dialog->ui.text, path);
     dialog->ui.text.all = path[0] != '\0';
     if (is_question(dialog) || kind == DIALOG_EXPORT) return;
-    bool lists = kind == DIALOG_OPEN && dialog->files.recent;
-    dialog->recent_count = lists ? dialog->files.recent(dialog->files.user, dialog->recent, DIALOG_MAX_RECENT) : 0;
+    bool lists = kind == DIALOG_OPEN && dialog->app->recent;
+    dialog->recent_count = lists ? dialog->app->recent(dialog->app->user, dialog->recent, DIALOG_MAX_RECENT) : 0;
     dialog_match(dialog);
 }
 
@@ -662,8 +656,8 @@ void dialog_close(struct dialogs *dialogs)
 void dialogs_save_as(struct dialogs *dialogs)
 {
     const struct core *core = dialogs->core;
-    const char *name = path_has_end(core->title, ".json") ? core->title : "untitled.json";
-    dialog_open(dialogs, DIALOG_SAVE_AS, core->path[0] ? core->path : name);
+    const char *name = path_has_end(core_title(core), ".json") ? core_title(core) : "untitled.json";
+    dialog_open(dialogs, DIALOG_SAVE_AS, core_path(core)[0] ? core_path(core) : name);
 }
 
 void dialog_go_on(struct dialogs *dialogs, const struct request *after)
@@ -671,15 +665,18 @@ void dialog_go_on(struct dialogs *dialogs, const struct request *after)
     if (after->kind == REQUEST_OPEN && !after->path[0]) {
         dialog_open(dialogs, DIALOG_OPEN, "");
     } else if (after->kind != REQUEST_NONE) {
-        dialogs->core->request = *after;
+        core_request(dialogs->core, after);
     }
 }
 
 void dialog_await(struct dialogs *dialogs, enum request_kind kind, const char *path)
 {
+    struct request request = {
+        .kind = kind, .number = dialogs->core->focus.active, .wish = dialogs->exporting.memory.wish};
+    snprintf(request.path, sizeof request.path, "%s", path);
     dialogs->dialog.error[0] = '\0';
     dialogs->dialog.awaited = kind;
-    core_request(dialogs->core, kind, path);
+    core_request(dialogs->core, &request);
 }
 
 bool dialogs_answer(struct dialogs *dialogs, const struct request *request, bool ok, const char *text)
@@ -872,7 +869,7 @@ static void build_path(struct dialogs *dialogs)
         dialog_match(dialog);
     }
     ui_space(ui, 8);
-    if (dialog->files.list) build_list(dialogs);
+    if (dialog->app->list) build_list(dialogs);
     const char *note = "", *typed = path_name(ui->text.bytes);
     for (int m = 0; saving && m < dialog->match_count; m++) {
         if (!dialog_recent_of(dialog, m) && strcmp(dialog->names[dialog->match[m]], typed) == 0)
@@ -880,7 +877,7 @@ static void build_path(struct dialogs *dialogs)
     }
     if (dialog->match_count > 0 && dialog_recent_of(dialog, 0))
         note = "Recent files come first. Type a path or choose one; Tab completes.";
-    if (!note[0] && dialog->files.list) note = "Tab completes, arrow keys choose.";
+    if (!note[0] && dialog->app->list) note = "Tab completes, arrow keys choose.";
     ui_space(ui, 4);
     float top = ui->y;
     ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? theme()->error : theme()->text_dim);
@@ -977,13 +974,12 @@ struct dialogs *dialogs_create(struct core *core, const struct command *commands
 {
     struct dialogs *dialogs = need_zeroed(1, sizeof *dialogs);
     dialogs->core = core;
+    dialogs->dialog.app = &core->app;
     dialogs->commands = (struct command_list){commands, count};
     return dialogs;
 }
 
 void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
-
-void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
 bool dialogs_event(struct dialogs *dialogs, const struct event *event)
 {

@@ -2,46 +2,17 @@
 #ifndef EDITOR_DIALOGS_DIALOGS_H
 #define EDITOR_DIALOGS_DIALOGS_H
 
-#include "editor/core/state.h"
+#include "editor/core/app.h"
 #include "export/export.h"
 #include "ui/widgets.h"
 
-// The app provides functions to list folders; the editor opens no files.
-
-enum { DIALOG_MAX_RECENT = 12 };
-
-struct dialog_recent {
-    char path[PATH_LIMIT]; ///< absolute
-    bool missing;          ///< deleted or unreadable
-};
-
-/// Writes at most `most` recent files, newest first; returns how many.
-typedef int dialog_list_recent(void *user, struct dialog_recent *files, int most);
-
-struct dialog_files {
-    /// Lists the scenes (*.json) and folders (with a trailing '/') in `folder`, sorted. Writes at most `max`, returns how many, or -1 if
-    /// the folder cannot be read. NULL: dialogs are plain text fields.
-    int (*list)(void *user, const char *folder, char names[][256], int max);
-    dialog_list_recent *recent; ///< NULL: there are none
-    int format_count;           ///< how many of `export_formats` are offered; 0: no export
-    void *user;
-};
-
-/// The last export and its scene file.
-struct export_memory {
-    char path[PATH_LIMIT], scene[PATH_LIMIT];
-    struct export_wish wish;
-};
-
-struct dialogs;
-
 struct command;
+struct core;
+struct dialogs;
 
 /// `commands`: the table for F1 and F3.
 struct dialogs *dialogs_create(struct core *core, const struct command *commands, int count);
 void dialogs_destroy(struct dialogs *dialogs);
-/// Copies `files`.
-void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files);
 void dialogs_save_as(struct dialogs *dialogs);
 void dialogs_export(struct dialogs *dialogs);
 /// Sets the Export dialog's initial choices.

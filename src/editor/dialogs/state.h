@@ -43,7 +43,7 @@ enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 }
 struct dialog {
     enum dialog_kind kind;
     struct ui ui; ///< its text is the path
-    struct dialog_files files;
+    const struct editor_app *app;
     struct question question;  ///< its `choice` is the answer that Enter gives
     struct request after;      ///< runs after saving or discarding, or REQUEST_NONE
     enum request_kind awaited; ///< request that waits for an answer, or REQUEST_NONE

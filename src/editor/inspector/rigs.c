@@ -193,7 +193,7 @@ static void carry_out(struct inspector *in, struct choice choice)
         rigs_add_tail(in->core);
         break;
     case ADD_FILE:
-        core_request(in->core, REQUEST_ADD, NULL);
+        in->core->question.adds = true;
         break;
     case ADD_COPY:
         rigs_copy(in->core, choice.rig);

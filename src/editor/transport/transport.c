@@ -40,7 +40,7 @@ static bool use_control(struct core *core, int control, const struct event *even
     if (turns ? event->dy == 0 : event->button == BUTTON_MIDDLE) return false;
     const int step = turns ? (event->dy > 0 ? 1 : -1) : !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
     if (control == SPEED) playback_change_speed(core, step);
-    if (control == SIZE) core->request = (struct request){.kind = REQUEST_UI_SCALE, .number = step};
+    if (control == SIZE) core_request(core, &(struct request){.kind = REQUEST_UI_SCALE, .number = step});
     if (turns || !left) return true;
     if (control == PLAY) playback_toggle(core);
     if (control == LOOP) core_flip(core, SWITCH_LOOP);
@@ -55,10 +55,10 @@ static void paint_control(const struct core *core, struct drawlist *list, int co
     const struct playback *playback = &core->view.playback;
     char speed[16], size[16];
     snprintf(speed, sizeof speed, "%g×", playback->speed);
-    snprintf(size, sizeof size, "%.0f %%", 100 * core->view.ui_scale);
+    snprintf(size, sizeof size, "%.0f %%", 100 * core->app.figures->ui_scale);
     const bool on[] = {
         [PLAY] = playback->playing,         [LOOP] = playback->looping, [SPEED] = playback->speed != 1,
-        [AUTO_KEY] = core->step.auto_key,   [KEEP] = core->step.keep,   [SIZE] = core->view.ui_scale != 1,
+        [AUTO_KEY] = core->step.auto_key,   [KEEP] = core->step.keep,   [SIZE] = core->app.figures->ui_scale != 1,
         [PRESENT] = core->view.presenter.on};
     const char *const words[CONTROLS] = {
         [LOOP] = "Loop", [SPEED] = speed, [AUTO_KEY] = "Auto-key", [KEEP] = "Keep", [SIZE] = size};
@@ -129,7 +129,7 @@ void transport_advance(struct core *core, double dt)
     status->age += dt;
     if (status->shown.fps > 0 && status->age < REFRESH) return;
     status->age = 0;
-    status->shown = status->told;
+    status->shown = *core->app.figures;
     status->dropped = core->view.playback.dropped;
 }
 
@@ -173,6 +173,7 @@ void transport_show(struct ui *ui, struct core *core, const char *hint)
     static const double SOLVED = 5;                                   // µs; shorter times solved nothing
     struct rect bar = core->view.layout.status;
     const struct message *message = &core->message;
+    const struct figures *now = core->app.figures;
     const struct status *status = &core->status;
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
@@ -197,19 +198,19 @@ void transport_show(struct ui *ui, struct core *core, const char *hint)
     if (status->shown.solve_us >= SOLVED && core->evaluation)
         snprintf(solve, sizeof solve, "solve %.0f µs (%s)", status->shown.solve_us,
                  evaluation_solver(core->evaluation));
-    if (status->stage_scale > 0 && status->stage_scale < 1)
-        snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)status->stage_scale);
+    if (now->stage_scale > 0 && now->stage_scale < 1)
+        snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)now->stage_scale);
     snprintf(figures, sizeof figures, "%s%s%s%s%s", stage, stage[0] && (fps[0] || solve[0]) ? "  " : "", fps,
              fps[0] && solve[0] ? "  " : "", solve);
 
     // The message is never cut: figures and name give way to it, figures first.
     const float mark = bar.x + bar.w - STATUS_MARGIN - font_width(FONT_LABEL, THEME_TEXT_NORMAL, unkept);
-    const float end = core->unkept ? mark - GAP : bar.x + bar.w - STATUS_MARGIN;
+    const float end = now->unkept ? mark - GAP : bar.x + bar.w - STATUS_MARGIN;
     const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     const float needed = message->text[0] ? GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text) : 0;
     const bool saved = history_is_saved(core->history);
-    char title[sizeof core->title + 8]; // a dot for unsaved changes
-    snprintf(title, sizeof title, "%s%s", core->title, saved ? "" : " •");
+    char title[264]; // a dot for unsaved changes
+    snprintf(title, sizeof title, "%.255s%s", core_title(core), saved ? "" : " •");
     const float title_width =
         fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, title), fminf(bar.w / 5, fmaxf(end - x, 0)));
     const bool roomy = x + title_width + needed + GAP + width <= end;
@@ -225,7 +226,7 @@ void transport_show(struct ui *ui, struct core *core, const char *hint)
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     const struct rect middle = {x, bar.y, end - (roomy && figures[0] ? width + GAP : 0) - x, bar.h};
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
-    if (!core->unkept) return; // in a narrow window the mark covers the controls
+    if (!now->unkept) return; // in a narrow window the mark covers the controls
     const struct rect r = {mark, bar.y, bar.x + bar.w - STATUS_MARGIN - mark, bar.h};
     drawlist_rect(&core->list, (struct rect){r.x - STATUS_MARGIN, r.y + 1, r.w + 2 * STATUS_MARGIN, r.h - 1},
                   theme()->panel);
