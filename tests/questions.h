@@ -16,7 +16,6 @@
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "editor/state.h"
-#include "editor/transport/transport.h"
 
 // --- the status line and what is drawn ---
 

@@ -31,6 +31,9 @@ struct editor {
 /// Carries out a request that leaves the document, after asking about unsaved work. Ends a running edit in the inspector first.
 void editor_leave(struct editor *editor, const struct request *request);
 
+/// Draws the status line.
+void status_show(struct editor *editor);
+
 /// Sorted by heading, in the order of F1.
 extern const struct command commands[];
 extern const int command_count;

@@ -89,11 +89,11 @@ static void check_status(struct session *f)
         "in the line, whatever the width of the window may be, and then some more";
     static const char *const messages[] = {"", "Saved.", long_message};
     tell_figures(f->editor, 1234, 123456);
-    transport_advance(&f->editor->core, 1);
+    editor_advance(f->editor, 1);
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
         tell(f->editor, true, "%s", messages[m]);
         show(f);
-        transport_show(&f->editor->status, &f->editor->core, NULL);
+        status_show(f->editor);
         const int texts = assert_texts_apart(drawn_by(f->editor), 0, layout_of(f->editor)->status);
         // The figures and the scene's name may give way to a long message.
         assert_in_range(texts, messages[m] == long_message ? 7 : 9, 9);
@@ -346,7 +346,7 @@ SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280
     int changes = 0;
     for (int frame = 0; frame < 120; frame++) {
         tell_figures(s->editor, 50 + frame % 7, 200 + frame);
-        transport_advance(&s->editor->core, 1.0 / 60);
+        editor_advance(s->editor, 1.0 / 60);
         changes += s->editor->core.status.shown.solve_us != last;
         last = s->editor->core.status.shown.solve_us;
     }
