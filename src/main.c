@@ -53,17 +53,6 @@ static int print_help(bool all)
     return 0;
 }
 
-/// Our own licence, then those of what is built in: fonts and header-only libraries.
-static int print_licenses(void)
-{
-    fputs((const char *)embedded_find("LICENSE")->data, stdout);
-    for (const struct embedded *file = NULL; (file = embedded_next("licenses/", file));) {
-        printf("\n----\n%s, part of this program:\n\n", strchr(file->name, '/') + 1);
-        fwrite(file->data, 1, file->size, stdout);
-    }
-    return 0;
-}
-
 static const struct command *find_command(const char *name)
 {
     for (int i = 0; i < COMMAND_COUNT; i++) {
@@ -71,9 +60,6 @@ static const struct command *find_command(const char *name)
     }
     return NULL;
 }
-
-/// `wiggly scene.json` and `wiggly --headless` mean live; a word that is neither a file nor looks like one is a mistake.
-static bool means_live(const char *word) { return word[0] == '-' || strpbrk(word, "./") || access(word, F_OK) == 0; }
 
 static int wrong_command(const char *word)
 {
@@ -90,32 +76,36 @@ static int wrong_command(const char *word)
     return 2;
 }
 
-/// `wiggly help`, and `wiggly help export`, which is `wiggly export --help`.
-static int help_with(int argc, char **argv)
-{
-    static char help[] = "--help";
-    if (argc < 2) return print_help(false);
-    const struct command *command = find_command(argv[1]);
-    char *arguments[] = {argv[1], help, NULL};
-    return command ? command->run(2, arguments) : wrong_command(argv[1]);
-}
-
 static int run(int argc, char **argv)
 {
-    static char live[] = "live";
+    static char live[] = "live", help[] = "--help";
     char *no_arguments[] = {live, NULL};
     if (argc < 2) return command_live(1, no_arguments);
-    if (strcmp(argv[1], "help") == 0) return help_with(argc - 1, argv + 1);
+    if (strcmp(argv[1], "help") == 0) { // `wiggly help export` is `wiggly export --help`
+        if (argc < 3) return print_help(false);
+        const struct command *command = find_command(argv[2]);
+        char *arguments[] = {argv[2], help, NULL};
+        return command ? command->run(2, arguments) : wrong_command(argv[2]);
+    }
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) return print_help(false);
     if (strcmp(argv[1], "--help-all") == 0) return print_help(true);
     if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
         printf("wiggly %s (%s)\n", WIGGLY_VERSION, build_commit);
         return 0;
     }
-    if (strcmp(argv[1], "--licenses") == 0) return print_licenses();
+    if (strcmp(argv[1], "--licenses") ==
+        0) { // our own, then those of what is built in: fonts and header-only libraries
+        fputs((const char *)embedded_find("LICENSE")->data, stdout);
+        for (const struct embedded *file = NULL; (file = embedded_next("licenses/", file));) {
+            printf("\n----\n%s, part of this program:\n\n", strchr(file->name, '/') + 1);
+            fwrite(file->data, 1, file->size, stdout);
+        }
+        return 0;
+    }
     const struct command *command = find_command(argv[1]);
     if (command) return command->run(argc - 1, argv + 1);
-    if (!means_live(argv[1])) return wrong_command(argv[1]);
+    // `wiggly scene.json` and `wiggly --headless` mean live; a word that is neither a file nor looks like one is a mistake.
+    if (argv[1][0] != '-' && !strpbrk(argv[1], "./") && access(argv[1], F_OK) != 0) return wrong_command(argv[1]);
     argv[0] = live;
     return command_live(argc, argv);
 }

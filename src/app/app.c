@@ -18,21 +18,6 @@
 
 static double microseconds(double from, double to) { return 1e6 * (to - from); }
 
-/// Reads the models of a document that is new, restored by undo, or has other models since the last edit.
-static void read_models(struct workspace *work)
-{
-    struct error error;
-    if (!work->models) return;
-    const bool is_new = work->models_serial != work->document->serial;
-    if (!is_new && models_suit(work->models, work->document)) return;
-    work->models_serial = work->document->serial;
-    if (is_new) {
-        if (!scene_read_paint(work->document, &error)) editor_message(work->editor, true, "%s", error.text);
-        if (!history_is_open(work->history)) history_amend(work->history);
-    }
-    if (!models_update(work->models, work->document, &error)) editor_message(work->editor, true, "%s", error.text);
-}
-
 void workspace_edit(struct workspace *work, double dt, struct frame_row *row)
 {
     const double start = clock_now();
@@ -42,7 +27,16 @@ void workspace_edit(struct workspace *work, double dt, struct frame_row *row)
 
 void workspace_solve(struct workspace *work, struct frame_row *row)
 {
-    read_models(work);
+    // The models of a document that is new, restored by undo, or has other models since the last edit.
+    const bool is_new = work->models_serial != work->document->serial;
+    if (work->models && (is_new || !models_suit(work->models, work->document))) {
+        struct error error;
+        work->models_serial = work->document->serial;
+        if (is_new && !scene_read_paint(work->document, &error)) editor_message(work->editor, true, "%s", error.text);
+        if (is_new && !history_is_open(work->history)) history_amend(work->history);
+        if (!models_update(work->models, work->document, &error))
+            editor_message(work->editor, true, "%s", error.text);
+    }
     if (work->models) models_follow(work->models, work->document);
     const double start = clock_now();
     struct evaluation *evaluation = &work->evaluation;
@@ -195,21 +189,6 @@ static void handle_event(struct app *app, const struct event *event)
     editor_event(app->work.editor, &seen);
 }
 
-static void play_events(struct app *app)
-{
-    const long frame = app->demo.on ? app->demo.frame : app->frame;
-    const bool forgives = app->demo.on && !app->fixed_clock; // a target may be hidden in a window of another size
-    struct event event;
-    do {
-        app->error.kind = ERROR_NONE;
-        while (replay_next(app->replay, frame, locate, app, &event, &app->error)) {
-            if (isnan(app->oldest_event)) app->oldest_event = app->frame_start;
-            handle_event(app, &event);
-        }
-    } while (forgives && app->error.kind != ERROR_NONE);
-    if (app->error.kind != ERROR_NONE) app->failed = true;
-}
-
 struct replay *demo_replay(struct error *error)
 {
     const struct embedded *file = embedded_find("demo/demo.replay");
@@ -308,21 +287,21 @@ static bool take_input(struct app *app)
         history_mark_saved(app->work.history); // no question about the demo's edits
         if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
     }
-    if (app->replay && !app->failed) play_events(app);
+    if (app->replay && !app->failed) {
+        const bool forgives = app->demo.on && !app->fixed_clock; // a target may be hidden in a window of another size
+        const long frame = app->demo.on ? app->demo.frame : app->frame;
+        struct event event;
+        do {
+            app->error.kind = ERROR_NONE;
+            while (replay_next(app->replay, frame, locate, app, &event, &app->error)) {
+                if (isnan(app->oldest_event)) app->oldest_event = app->frame_start;
+                handle_event(app, &event);
+            }
+        } while (forgives && app->error.kind != ERROR_NONE);
+        app->failed |= app->error.kind != ERROR_NONE;
+    }
     app->row.input_us = microseconds(app->frame_start, clock_now());
     return true;
-}
-
-/// Notes when the next frame is due; a recording's clock counts frames of equal length. Returns the seconds of playback.
-static double step_clock(struct app *app)
-{
-    double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
-    bool starts =
-        app->frame == 0 || (app->was_idle && !app->fixed_clock); // what starts now did not move during the pause
-    app->last_time = app->frame_start;
-    app->next_time = app->fixed_clock ? fmax(app->next_time + replay_dt, app->frame_start)
-                                      : pace_next(&app->pace, app->next_time, app->frame_start);
-    return starts ? 0 : dt;
 }
 
 static struct draw_input draw_input(const struct app *app, float stage_scale)
@@ -337,24 +316,6 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
     platform_size(app->platform, &input.width, &input.height, &input.scale);
     input.scale *= (float)app->ui_scale_shown;
     return input;
-}
-
-static void draw_timed(struct app *app)
-{
-    struct draw_input input = draw_input(app, app->resolution.shown);
-    struct draw_cost cost = {0};
-    draw_frame(app->draw, &input, &cost);
-    app->must_redraw = false;
-    double swap_start = clock_now();
-    platform_swap(app->platform);
-    double end = clock_now();
-    pace_swapped(&app->pace, end, !app->was_idle && cost.rectangles > 0);
-    app->row.upload_us = cost.upload_us;
-    app->row.draw_us = cost.draw_us;
-    if (cost.gpu_us >= 0) app->gpu_us = cost.gpu_us;
-    if (app->log && cost.gpu_us >= 0) framelog_gpu(app->log, cost.gpu_frame, cost.gpu_us);
-    app->row.uploaded_bytes = cost.uploaded_bytes;
-    app->row.swap_us = microseconds(swap_start, end);
 }
 
 void app_draw_exactly(struct app *app)
@@ -413,8 +374,13 @@ void app_frame(struct app *app)
         return;
     }
     exporting_step(app);
-    const double passed = step_clock(app);
-    workspace_edit(work, exporting_draws(app) ? 0 : passed, row);
+    // Seconds of playback. A recording's clock counts frames of equal length. What starts now did not move during a pause.
+    double passed = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
+    if (app->frame == 0 || (app->was_idle && !app->fixed_clock) || exporting_draws(app)) passed = 0;
+    app->last_time = app->frame_start;
+    app->next_time = app->fixed_clock ? fmax(app->next_time + replay_dt, app->frame_start)
+                                      : pace_next(&app->pace, app->next_time, app->frame_start);
+    workspace_edit(work, passed, row);
     app_show_title(app);
     ui_scale_update(app);
     personal_update(app);
@@ -431,7 +397,22 @@ void app_frame(struct app *app)
     workspace_show(work, row);
     row->upload_us = row->draw_us = row->gpu_us = row->swap_us = NAN;
     row->uploaded_bytes = -1;
-    if (app->draw) draw_timed(app);
+    if (app->draw) {
+        const struct draw_input input = draw_input(app, app->resolution.shown);
+        struct draw_cost cost = {0};
+        draw_frame(app->draw, &input, &cost);
+        app->must_redraw = false;
+        const double swap_start = clock_now();
+        platform_swap(app->platform);
+        const double end = clock_now();
+        pace_swapped(&app->pace, end, !app->was_idle && cost.rectangles > 0);
+        row->upload_us = cost.upload_us;
+        row->draw_us = cost.draw_us;
+        if (cost.gpu_us >= 0) app->gpu_us = cost.gpu_us;
+        if (app->log && cost.gpu_us >= 0) framelog_gpu(app->log, cost.gpu_frame, cost.gpu_us);
+        row->uploaded_bytes = cost.uploaded_bytes;
+        row->swap_us = microseconds(swap_start, end);
+    }
     end_frame(app);
     app->frame++;
 }

@@ -229,29 +229,6 @@ static struct rectangle find_changed(struct film_file *file, const unsigned char
 
 // --- colors
 
-static int count_colors(struct film_file *file, const unsigned char *pixels)
-{
-    const size_t pixel_count = (size_t)file->shape.width * (size_t)file->shape.height;
-    int count = 0;
-    memset(file->cells, 0, CELLS * sizeof *file->cells);
-    for (size_t i = 0; i < pixel_count; i++) {
-        if (!file->drawn[i]) continue;
-        const unsigned char *p = pixels + 4 * i;
-        struct cell *cell =
-            &file->cells[(p[0] >> SHIFT) << 2 * CELL_BITS | (p[1] >> SHIFT) << CELL_BITS | p[2] >> SHIFT];
-        cell->count++;
-        for (int c = 0; c < 3; c++) cell->sum[c] += p[c];
-    }
-    for (int i = 0; i < CELLS; i++) {
-        const struct cell *cell = &file->cells[i];
-        if (!cell->count) continue;
-        struct color *color = &file->colors[count++];
-        color->count = (float)cell->count;
-        for (int c = 0; c < 3; c++) color->value[c] = (float)cell->sum[c] / color->count;
-    }
-    return count;
-}
-
 static struct box measure_box(const struct color *colors, int first, int count)
 {
     struct box box = {first, count, {0}, 0, 0};
@@ -276,21 +253,6 @@ static struct box measure_box(const struct color *colors, int first, int count)
     return box;
 }
 
-/// Moves the colors below the mean to the front. Returns how many.
-static int cut_box(struct color *colors, const struct box *box)
-{
-    int below = 0;
-    for (int i = 0; i < box->count; i++) {
-        struct color *color = &colors[box->first + i], *place = &colors[box->first + below];
-        if (color->value[box->widest] >= box->mean[box->widest]) continue;
-        const struct color moved = *color;
-        *color = *place;
-        *place = moved;
-        below++;
-    }
-    return below;
-}
-
 static int by_green(const void *a, const void *b)
 {
     const unsigned char *x = a, *y = b;
@@ -300,20 +262,46 @@ static int by_green(const void *a, const void *b)
 /// The colors that suit the drawn pixels best.
 static void choose_colors(struct film_file *file, const unsigned char *pixels, struct palette *palette)
 {
-    const int colors = count_colors(file, pixels);
+    const size_t pixel_count = (size_t)file->shape.width * (size_t)file->shape.height;
+    struct color *colors = file->colors;
+    int color_count = 0;
+    memset(file->cells, 0, CELLS * sizeof *file->cells);
+    for (size_t i = 0; i < pixel_count; i++) {
+        if (!file->drawn[i]) continue;
+        const unsigned char *p = pixels + 4 * i;
+        struct cell *cell =
+            &file->cells[(p[0] >> SHIFT) << 2 * CELL_BITS | (p[1] >> SHIFT) << CELL_BITS | p[2] >> SHIFT];
+        cell->count++;
+        for (int c = 0; c < 3; c++) cell->sum[c] += p[c];
+    }
+    for (int i = 0; i < CELLS; i++) {
+        const struct cell *cell = &file->cells[i];
+        if (!cell->count) continue;
+        struct color *color = &colors[color_count++];
+        color->count = (float)cell->count;
+        for (int c = 0; c < 3; c++) color->value[c] = (float)cell->sum[c] / color->count;
+    }
     palette->count = 0;
-    if (colors == 0) return;
-    struct box boxes[PALETTE_COLORS] = {measure_box(file->colors, 0, colors)};
+    if (color_count == 0) return;
+    struct box boxes[PALETTE_COLORS] = {measure_box(colors, 0, color_count)};
     int count = 1;
     while (count < PALETTE_COLORS) {
         struct box *most = boxes;
         for (int b = 1; b < count; b++) {
             if (boxes[b].spread > most->spread) most = &boxes[b];
         }
-        const int below = most->spread > 0 ? cut_box(file->colors, most) : 0;
+        int below = 0; // the colors below the mean go to the front
+        for (int i = 0; i < most->count && most->spread > 0; i++) {
+            struct color *color = &colors[most->first + i], *place = &colors[most->first + below];
+            if (color->value[most->widest] >= most->mean[most->widest]) continue;
+            const struct color moved = *color;
+            *color = *place;
+            *place = moved;
+            below++;
+        }
         if (below == 0) break;
-        boxes[count++] = measure_box(file->colors, most->first + below, most->count - below);
-        *most = measure_box(file->colors, most->first, below);
+        boxes[count++] = measure_box(colors, most->first + below, most->count - below);
+        *most = measure_box(colors, most->first, below);
     }
     palette->count = count;
     for (int b = 0; b < count; b++) {

@@ -56,15 +56,6 @@ void recovery_release(struct recovery_slot *slot)
     slot->lock = -1;
 }
 
-/// Whether a slot's file belongs to the document `of`.
-static bool is_of(const char *path, const char *of)
-{
-    const struct scene_origin origin = scene_read_origin(path);
-    char kept[PATH_LIMIT], wanted[PATH_LIMIT];
-    return origin.path[0] && path_resolve(NULL, origin.path, kept) && path_resolve(NULL, of, wanted) &&
-           strcmp(kept, wanted) == 0;
-}
-
 bool recovery_find(const char *folder, const char *of, struct recovery_entry *entry, int *count)
 {
     struct timespec newest = {0};
@@ -74,7 +65,15 @@ bool recovery_find(const char *folder, const char *of, struct recovery_entry *en
         struct stat status;
         char path[PATH_LIMIT];
         snprintf(path, sizeof path, "%s/recovery-%d", folder, n);
-        if (stat(path, &status) != 0 || (of && !is_of(path, of)) || !claim_slot(folder, n, &slot)) continue;
+        if (stat(path, &status) != 0) continue;
+        if (of) {
+            const struct scene_origin origin = scene_read_origin(path);
+            char kept[PATH_LIMIT], wanted[PATH_LIMIT];
+            if (!origin.path[0] || !path_resolve(NULL, origin.path, kept) || !path_resolve(NULL, of, wanted) ||
+                strcmp(kept, wanted) != 0)
+                continue;
+        }
+        if (!claim_slot(folder, n, &slot)) continue;
         bool newer = found++ == 0 || status.st_mtim.tv_sec > newest.tv_sec ||
                      (status.st_mtim.tv_sec == newest.tv_sec && status.st_mtim.tv_nsec > newest.tv_nsec);
         if (newer && found > 1) recovery_release(&entry->slot);
@@ -245,16 +244,16 @@ static bool rescue_to(const struct app *app, const char *folder, const char *nam
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
     char beside[PATH_LIMIT], shared[] = "/tmp/wiggly-XXXXXX";
-    const char *home = getenv("HOME"), *plain = "untitled.json";
-    const char *own = app_path(app)[0] ? path_name(app_path(app)) : plain;
+    const char *home = getenv("HOME") ? getenv("HOME") : "";
+    const char *names[] = {app_path(app)[0] ? path_name(app_path(app)) : "untitled.json", "untitled.json"};
     struct error other;
     path_folder(app_path(app), beside);
-    if (rescue_to(app, beside, own, path, size, error)) return true;
-    if (rescue_to(app, home ? home : "", own, path, size, &other)) return true;
-    if (rescue_to(app, beside, plain, path, size, &other)) return true;
-    if (rescue_to(app, home ? home : "", plain, path, size, &other)) return true;
+    for (int n = 0; n < 2; n++) {
+        if (rescue_to(app, beside, names[n], path, size, n ? &other : error)) return true;
+        if (rescue_to(app, home, names[n], path, size, &other)) return true;
+    }
     if (!mkdtemp(shared)) return false;
-    if (rescue_to(app, shared, plain, path, size, &other)) return true;
+    if (rescue_to(app, shared, names[1], path, size, &other)) return true;
     rmdir(shared);
     return false;
 }

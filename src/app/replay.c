@@ -379,18 +379,6 @@ struct recording *recording_open(const char *path, const struct replay_header *h
     return recording;
 }
 
-static const struct verb *verb_of(const struct event *event)
-{
-    for (int v = 0; v < VERB_COUNT; v++) {
-        bool by_action = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
-        bool same_clicks =
-            event->kind != EVENT_BUTTON || event->action != ACTION_PRESS || verbs[v].clicks == event->clicks;
-        if (verbs[v].kind == event->kind && (!by_action || verbs[v].action == event->action) && same_clicks)
-            return &verbs[v];
-    }
-    return NULL;
-}
-
 /// Escapes characters that end a word or open brackets.
 static void write_escaped(FILE *f, const char *text)
 {
@@ -403,9 +391,14 @@ static void write_escaped(FILE *f, const char *text)
 
 void recording_event(struct recording *recording, long frame, const struct event *event)
 {
-    const struct verb *verb = verb_of(event);
     FILE *f = recording->file;
-    if (!verb || (event->kind == EVENT_KEY && !key_name(event->key))) return;
+    const bool by_action = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
+    const bool by_clicks = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS;
+    const struct verb *verb = verbs, *end = verbs + VERB_COUNT;
+    while (verb < end && (verb->kind != event->kind || (by_action && verb->action != event->action) ||
+                          (by_clicks && verb->clicks != event->clicks)))
+        verb++;
+    if (verb == end || (event->kind == EVENT_KEY && !key_name(event->key))) return;
     fprintf(f, "%ld %s", frame, verb->name);
     if (verb->operands & WITH_KEY) fprintf(f, " %s", key_name(event->key));
     if (verb->operands & WITH_BUTTON) fprintf(f, " %s", button_names[event->button]);
