@@ -131,25 +131,6 @@ static void run_nudge(struct editor *editor, int way)
     }
 }
 
-static void play(struct core *core, int unused)
-{
-    (void)unused;
-    playback_toggle(core);
-}
-
-enum list_change { LIST_ADD, LIST_COPY, LIST_REMOVE, LIST_SOLO, LIST_HIDE, LIST_UP, LIST_DOWN };
-
-static void change_list(struct core *core, int change)
-{
-    if (change == LIST_ADD) spline_list_add(core);
-    if (change == LIST_COPY) spline_list_copy(core);
-    if (change == LIST_REMOVE) spline_list_remove(core);
-    if (change == LIST_SOLO) spline_list_flip(core, &core->view.solo, core->focus.active);
-    if (change == LIST_HIDE) spline_list_flip(core, &core->view.hidden, core->focus.active);
-    if (change >= LIST_UP)
-        spline_list_move(core, core->focus.active, core->focus.active + (change == LIST_UP ? -1 : 1));
-}
-
 /// The first of the sizes clearly above the present one, then the smallest again.
 static double next_size(const double sizes[3], double present)
 {
@@ -270,7 +251,7 @@ const struct command commands[] = {
     GESTURE("Hold C, press ↑ ↓", "Calm", SPLINE, 0),
     GESTURE("Hold L, press ↑ ↓", "Lag of the tail", SPLINE, 0),
 
-    COMMAND("Play or pause", PLAYBACK, ON_CURVES | ON_TIME, NOTHING, 0, .core = play, 0, {KEY_SPACE, 0}),
+    COMMAND("Play or pause", PLAYBACK, ON_CURVES | ON_TIME, NOTHING, 0, .core = playback_toggle, 0, {KEY_SPACE, 0}),
     COMMAND("Next frame", PLAYBACK, ON_TIME, NOTHING, REPEATS, .core = playback_step, 1, {KEY_RIGHT, 0}),
     COMMAND("Previous frame", PLAYBACK, ON_TIME, NOTHING, REPEATS, .core = playback_step, -1, {KEY_LEFT, 0}),
     COMMAND("Go to the start", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_end, -1, {KEY_LEFT, SHIFT}),
@@ -409,13 +390,13 @@ const struct command commands[] = {
     PALETTE("Forget before", NOTHING, .core = take_keep, false),
     PALETTE("Roll a variation of the motion", SWING, .inspector = inspector_roll, 0),
     PALETTE("Play at normal speed", NOTHING, .core = playback_change_speed, 0),
-    PALETTE("Add a spline", NOTHING, .core = change_list, LIST_ADD),
-    PALETTE("Duplicate the spline", SPLINE, .core = change_list, LIST_COPY),
-    PALETTE("Delete the spline", SPLINE, .core = change_list, LIST_REMOVE),
-    PALETTE("Move the spline up in the list", SPLINE, .core = change_list, LIST_UP),
-    PALETTE("Move the spline down in the list", SPLINE, .core = change_list, LIST_DOWN),
-    PALETTE("Solo: show only this spline, or all again", SPLINE, .core = change_list, LIST_SOLO),
-    PALETTE("Hide the spline, or show it", SPLINE, .core = change_list, LIST_HIDE),
+    PALETTE("Add a spline", NOTHING, .core = spline_list_change, LIST_ADD),
+    PALETTE("Duplicate the spline", SPLINE, .core = spline_list_change, LIST_COPY),
+    PALETTE("Delete the spline", SPLINE, .core = spline_list_change, LIST_REMOVE),
+    PALETTE("Move the spline up in the list", SPLINE, .core = spline_list_change, LIST_UP),
+    PALETTE("Move the spline down in the list", SPLINE, .core = spline_list_change, LIST_DOWN),
+    PALETTE("Solo: show only this spline, or all again", SPLINE, .core = spline_list_change, LIST_SOLO),
+    PALETTE("Hide the spline, or show it", SPLINE, .core = spline_list_change, LIST_HIDE),
     PALETTE("Phase map on or off", PAINT, .core = core_flip, SWITCH_PHASE_MAP),
     PALETTE("Stiff twin on or off", CHARACTER, .core = core_flip, SWITCH_TWIN),
     PALETTE("Remove all paint", PAINT, .core = characters_clean_paint, 0),
@@ -522,7 +503,7 @@ bool keys_event(struct editor *editor, const struct event *event)
             core->input.space_used = false;
         } else if (event->action == ACTION_RELEASE && core->input.space_down) {
             core->input.space_down = false;
-            if (!core->input.space_used) playback_toggle(core);
+            if (!core->input.space_used) playback_toggle(core, 0);
         }
         return true;
     }

@@ -210,7 +210,7 @@ static bool use_control(struct core *core, int control, const struct event *even
     if (control == SPEED) playback_change_speed(core, step);
     if (control == SIZE) core_request(core, &(struct request){.kind = REQUEST_UI_SCALE, .number = step});
     if (turns || !left) return true;
-    if (control == PLAY) playback_toggle(core);
+    if (control == PLAY) playback_toggle(core, 0);
     if (control == LOOP) core_flip(core, SWITCH_LOOP);
     if (control == AUTO_KEY) core_flip(core, SWITCH_AUTO_KEY);
     if (control == KEEP) core_flip(core, SWITCH_KEEP);
@@ -414,21 +414,6 @@ static void move_divider(void *room, struct core *core)
                       core->input.drag.y);
 }
 
-static void editor_press(struct editor *editor, const struct event *event)
-{
-    enum divider divider = core_divider_at(&editor->core, event->x, event->y);
-    const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
-    if (divider != DIVIDER_NONE && event->button == BUTTON_LEFT) {
-        drag_begin(&editor->core, &divider_drags[divider], NULL, NULL, event);
-    } else if (panel == PANEL_CURVES) {
-        curves_press(editor->curves, &editor->core, event);
-    } else if (panel == PANEL_STAGE) {
-        stage_press(editor->stage, &editor->core, event);
-    } else {
-        status_event(editor, event);
-    }
-}
-
 void editor_leave(struct editor *editor, const struct request *request)
 {
     inspector_let_go(editor->inspector);
@@ -439,6 +424,7 @@ void editor_leave(struct editor *editor, const struct request *request)
 static void pass_on(struct editor *editor, const struct event *event)
 {
     struct request request = {.kind = event->kind == EVENT_CLOSE ? REQUEST_QUIT : REQUEST_OPEN};
+    const enum divider divider = core_divider_at(&editor->core, event->x, event->y);
     const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
     switch (event->kind) {
     case EVENT_KEY:
@@ -446,7 +432,16 @@ static void pass_on(struct editor *editor, const struct event *event)
         keys_event(editor, event);
         break;
     case EVENT_BUTTON:
-        if (event->action == ACTION_PRESS) editor_press(editor, event);
+        if (event->action != ACTION_PRESS) break;
+        if (divider != DIVIDER_NONE && event->button == BUTTON_LEFT) {
+            drag_begin(&editor->core, &divider_drags[divider], NULL, NULL, event);
+        } else if (panel == PANEL_CURVES) {
+            curves_press(editor->curves, &editor->core, event);
+        } else if (panel == PANEL_STAGE) {
+            stage_press(editor->stage, &editor->core, event);
+        } else {
+            status_event(editor, event);
+        }
         break;
     case EVENT_WHEEL:
         if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);

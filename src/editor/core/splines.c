@@ -17,22 +17,6 @@ void core_activate_neighbour(struct core *core, int direction)
     if (count > 0) core_choose(core, ((core->focus.active + direction) % count + count) % count);
 }
 
-void spline_list_add(struct core *core)
-{
-    struct document *document = core->document;
-    const double frame = round(core_frame(core));
-    const struct knot first = {.frame = fmax(document->first_frame, fmin(frame, document->last_frame))};
-    if (core_step(core, "Add spline", 0) && edit_spline_add(document, -1, NULL, &first, &core->step.error))
-        core_activate(core, document->spline_count - 1);
-}
-
-void spline_list_copy(struct core *core)
-{
-    if (!core_active_spline(core) || !core_step(core, "Duplicate spline", 0)) return;
-    if (edit_spline_copy(core->document, core->focus.active, &core->step.error))
-        core_activate(core, core->focus.active + 1);
-}
-
 void spline_list_move(struct core *core, int spline, int to)
 {
     if (to == spline || to < 0 || to >= core->document->spline_count) return;
@@ -92,11 +76,10 @@ static void remove_active(void *of, int answer)
     core_refresh(core); // the rest of this event needs an active spline
 }
 
-void spline_list_remove(struct core *core)
+/// Deletes the active spline; asks if something follows it.
+static void ask_remove(struct core *core, const struct spline *active)
 {
     static const struct answer answers[] = {{"dialog.delete", "Delete", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
-    const struct spline *active = core_active_spline(core);
-    if (!active) return;
     const int count = reference_count(core->document, core->focus.active);
     if (count == 0) {
         remove_active(core, 0);
@@ -109,15 +92,32 @@ void spline_list_remove(struct core *core)
              "Parameters that follow it keep their value at the playhead. Channels that it drives are deleted.");
 }
 
-static void set_fps(struct core *core, double fps, bool keeps_seconds)
+void spline_list_change(struct core *core, int change)
 {
-    if (core_step(core, "Set frames per second", 0)) edit_fps(core->document, fps, keeps_seconds, &core->step.error);
+    struct document *document = core->document;
+    const struct spline *spline = core_active_spline(core);
+    const int active = core->focus.active;
+    if (change == LIST_ADD) {
+        const double frame = round(core_frame(core));
+        const struct knot first = {.frame = fmax(document->first_frame, fmin(frame, document->last_frame))};
+        if (core_step(core, "Add spline", 0) && edit_spline_add(document, -1, NULL, &first, &core->step.error))
+            core_activate(core, document->spline_count - 1);
+    }
+    if (change == LIST_COPY && spline && core_step(core, "Duplicate spline", 0) &&
+        edit_spline_copy(document, active, &core->step.error))
+        core_activate(core, active + 1);
+    if (change == LIST_REMOVE && spline) ask_remove(core, spline);
+    if (change == LIST_UP || change == LIST_DOWN)
+        spline_list_move(core, active, active + (change == LIST_UP ? -1 : 1));
+    if (change == LIST_SOLO) spline_list_flip(core, &core->view.solo, active);
+    if (change == LIST_HIDE) spline_list_flip(core, &core->view.hidden, active);
 }
 
 static void answer_fps(void *of, int answer)
 {
     struct core *core = of;
-    set_fps(core, core->subject.fps, answer == 1);
+    if (core_step(core, "Set frames per second", 0))
+        edit_fps(core->document, core->subject.fps, answer == 1, &core->step.error);
 }
 
 void spline_list_fps(struct core *core, double fps)
@@ -127,12 +127,12 @@ void spline_list_fps(struct core *core, double fps)
                                             {"dialog.cancel", "Cancel", 'C'}};
     const double before = core->document->fps;
     if (fps == before) return;
+    core->subject.fps = fps;
     if (!rigs_have_knots(core->document) || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
-        set_fps(core, fps, false);
+        answer_fps(core, 0);
         return;
     }
     struct question *question = core_ask(core, answers, 3, answer_fps);
-    core->subject.fps = fps;
     snprintf(question->title, sizeof question->title, "%g frames per second instead of %g", fps, before);
     snprintf(
         question->note, sizeof question->note,

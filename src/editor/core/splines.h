@@ -7,15 +7,13 @@
 /// Activates the next (1) or previous (-1) spline, cyclically.
 void core_activate_neighbour(struct core *core, int direction);
 
-/// Appends a spline with a knot at the playhead and activates it.
-void spline_list_add(struct core *core);
-/// Inserts a copy after the active spline and activates it.
-void spline_list_copy(struct core *core);
+/// Appends a spline with a knot at the playhead, or inserts a copy after the active one, and activates it; removes the active one, and asks
+/// if something follows it; moves it in the list; shows it alone, or hides it.
+enum list_change { LIST_ADD, LIST_COPY, LIST_REMOVE, LIST_UP, LIST_DOWN, LIST_SOLO, LIST_HIDE };
+void spline_list_change(struct core *core, int change);
 void spline_list_move(struct core *core, int spline, int to);
 /// Value of a track at the playhead, within the parameter's limits.
 double spline_list_present(const struct core *core, int spline, enum parameter parameter);
-/// Deletes the active spline; asks if something follows it.
-void spline_list_remove(struct core *core);
 /// Sets the frame rate; asks whether knots keep their frames or seconds.
 void spline_list_fps(struct core *core, double fps);
 /// Sets the range; asks whether to move or delete knots outside.

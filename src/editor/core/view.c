@@ -239,8 +239,9 @@ static void range_positions(const struct core *core, double range[2])
     for (int end = 0; end < 2; end++) range[end] = core_position(core->document, range[end]);
 }
 
-void playback_toggle(struct core *core)
+void playback_toggle(struct core *core, int unused)
 {
+    (void)unused;
     struct playback *playback = &core->view.playback;
     double range[2];
     playback->playing = !playback->playing;

@@ -202,7 +202,7 @@ static void carry_out(struct inspector *in, struct choice choice)
         bones_make_chain(in->core, false);
         break;
     case ADD_SPLINE:
-        spline_list_add(in->core);
+        spline_list_change(in->core, LIST_ADD);
         break;
     }
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);

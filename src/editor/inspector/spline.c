@@ -168,10 +168,7 @@ void inspector_splines(struct inspector *in)
     struct core *core = in->core;
     const int offered = core->view.more ? sizeof buttons / sizeof buttons[0] : 1;
     const int pressed = inspector_icons(in, ui_row(ui, UI_ROW), buttons, offered);
-    if (pressed == 0) spline_list_add(core);
-    if (pressed == 1) spline_list_copy(core);
-    if (pressed == 2) spline_list_remove(core);
-    if (pressed >= 3) spline_list_move(core, core->focus.active, core->focus.active + (pressed == 3 ? -1 : 1));
+    if (pressed >= 0) spline_list_change(core, pressed);
 }
 
 static const struct preset {
