@@ -140,7 +140,8 @@ void exporting_step(struct app *app)
     if (!job) return;
     enum film_state state = continue_job(job, app->fixed_clock);
     while (app->fixed_clock && state == FILM_RUNS) state = continue_job(job, true);
-    dialogs_tell_export(editor_dialogs(app->work.editor), atomic_load(&job->done), atomic_load(&job->total));
+    app->figures.done = atomic_load(&job->done);
+    app->figures.total = atomic_load(&job->total);
     if (state == FILM_RUNS) return;
     const struct request *request = &job->request;
     const struct export_report *report = &job->report;
@@ -328,24 +329,6 @@ bool app_open(struct app *app, const char *path, struct error *error)
     return true;
 }
 
-/// Loads the file as another program left it. Undo restores the document.
-static bool take_theirs(struct app *app, struct error *error)
-{
-    struct document *document = scene_load(app_path(app), NULL, error);
-    if (!document) return false;
-    document_set_path(document, app_path(app));
-    document->serial = ++app->last_serial;
-    editor_let_go(app->work.editor); // a drag may have begun since
-    history_begin(app->work.history, "Take theirs", 0);
-    document_become(app->work.document, document);
-    history_end(app->work.history);
-    history_mark_saved(app->work.history);
-    editor_refresh(app->work.editor);
-    show_title(app);
-    app->own_file.content = file_content(app_path(app));
-    return true;
-}
-
 /// Where a file is written. A replay chooses no folder: what it writes goes to that of --saves, by its name alone, else nowhere (""). To the
 /// replay, all is as it was recorded.
 static bool place_file(const struct app *app, const char *path, char placed[PATH_LIMIT], struct error *error)
@@ -499,8 +482,21 @@ static bool do_request(struct app *app, const struct request *request, struct er
         app->own_file.content = file_content(app_path(app));
         history_mark_unsaved(app->work.history);
         return true;
-    case REQUEST_THEIRS:
-        return take_theirs(app, error);
+    case REQUEST_THEIRS: { // undo brings back the document
+        struct document *document = scene_load(app_path(app), NULL, error);
+        if (!document) return false;
+        document_set_path(document, app_path(app));
+        document->serial = ++app->last_serial;
+        editor_let_go(app->work.editor); // a drag may have begun since
+        history_begin(app->work.history, "Take theirs", 0);
+        document_become(app->work.document, document);
+        history_end(app->work.history);
+        history_mark_saved(app->work.history);
+        editor_refresh(app->work.editor);
+        show_title(app);
+        app->own_file.content = file_content(app_path(app));
+        return true;
+    }
     case REQUEST_EXPORT:
         return may_replace(app, request, error) && start_export(app, request, error);
     case REQUEST_EXPORT_STOP:

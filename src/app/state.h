@@ -84,7 +84,7 @@ struct app {
     struct {
         float width, height, scale;
     } display;              ///< the window in the display's logical pixels; device pixels per logical pixel
-    struct figures figures; ///< for the status line
+    struct figures figures; ///< for the editor
     double ui_scale_shown;  ///< figures.ui_scale or what fits
     struct pace pace;
     struct resolution resolution;

@@ -218,7 +218,7 @@ SESSION_TEST(test_cancelling, open_session(s, "walk.json", 1280, 720))
 {
     session_key(s, KEY_ENTER, 0);
     asked_for(s);
-    dialogs_tell_export(s->editor->dialogs, 30, 97);
+    s->editor->core.app.figures = &(struct figures){.ui_scale = 1, .done = 30, .total = 97};
     session_frame(s);
     assert_non_null(shown_text(s->editor, "30 of 97. Esc cancels and leaves nothing behind."));
     session_key(s, KEY_DELETE, 0); // nothing else is done meanwhile

@@ -77,12 +77,13 @@ struct dialog_recent {
     bool missing;          ///< deleted or unreadable
 };
 
-/// What the status line shows of the app.
+/// What status line and Export dialog show of the app.
 struct figures {
     double fps, solve_us; ///< frames per second, µs of solving
     double ui_scale;      ///< size of the interface relative to the display's
     float stage_scale;    ///< resolution of the stage per side relative to the window's; 0 means 1
     bool unkept;          ///< unsaved work has no recovery file
+    long done, total;     ///< of the running export; total 0: unknown
 };
 
 /// What the app does for the editor, which opens no files. Zero: nothing.

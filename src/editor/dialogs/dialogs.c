@@ -237,7 +237,6 @@ void dialogs_export(struct dialogs *dialogs)
     }
     exporting->serial = core->serial;
     exporting->typed = 0;
-    exporting->done = exporting->total = 0;
     struct export_wish *wish = &memory->wish;
     if (!wish->part || wish->first < document->first_frame || wish->last > document->last_frame) {
         wish->part = false;
@@ -251,12 +250,6 @@ void dialogs_export(struct dialogs *dialogs)
 void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory)
 {
     dialogs->exporting.memory = *memory;
-}
-
-void dialogs_tell_export(struct dialogs *dialogs, long done, long total)
-{
-    dialogs->exporting.done = done;
-    dialogs->exporting.total = total;
 }
 
 static void confirm_export(struct dialogs *dialogs)
@@ -274,7 +267,6 @@ static void confirm_export(struct dialogs *dialogs)
         snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
         return;
     }
-    dialogs->exporting.done = dialogs->exporting.total = 0;
     dialog_await(dialogs, REQUEST_EXPORT, full);
 }
 
@@ -398,22 +390,6 @@ static const char *chosen_rig(const struct document *document, const struct expo
     return label;
 }
 
-static void build_rig(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect *row)
-{
-    struct export_wish *wish = &dialogs->exporting.memory.wish;
-    int offered = 0;
-    const char *label = chosen_rig(document, wish, choices, &offered);
-    if (!label) wish->rig = 0; // the rig belonged to another format or is gone
-    if (offered < 2) return;
-    if ((choices & CHOICE_ONE) && !label) {
-        next_rig(wish, document, choices);
-        label = chosen_rig(document, wish, choices, &offered);
-    }
-    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "rig");
-    if (ui_button(&dialogs->dialog.ui, r, "export.rig", label ? label : "all rigs", false))
-        next_rig(wish, document, choices);
-}
-
 static void build_toggle(struct ui *ui, struct rect *row, const char *name, const char *label, bool *on)
 {
     enum { TOGGLE = 28, WORDS = 140 };
@@ -466,8 +442,20 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual ? usual : "as the scene",
                      theme()->text_dim);
     }
-    if (format->choices & CHOICE_RIG)
-        build_rig(dialogs, document, format->choices, &rows[narrow ? CHOICE_ROWS + 1 : 1]);
+    if (format->choices & CHOICE_RIG) {
+        int offered = 0;
+        const char *label = chosen_rig(document, wish, format->choices, &offered);
+        if (!label) wish->rig = 0; // the rig belonged to another format or is gone
+        if ((format->choices & CHOICE_ONE) && !label && offered > 1) {
+            next_rig(wish, document, format->choices);
+            label = chosen_rig(document, wish, format->choices, &offered);
+        }
+        if (offered > 1) {
+            const struct rect r = labelled(ui, &rows[narrow ? CHOICE_ROWS + 1 : 1], NUMBER_WIDTH + 48, "rig");
+            if (ui_button(ui, r, "export.rig", label ? label : "all rigs", false))
+                next_rig(wish, document, format->choices);
+        }
+    }
 
     struct rect *row = &rows[2];
     const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
@@ -483,15 +471,14 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
 static void build_note(struct dialogs *dialogs, const struct document *document)
 {
     const struct dialog *dialog = &dialogs->dialog;
-    const struct exporting *exporting = &dialogs->exporting;
-    const struct export_wish *wish = &exporting->memory.wish;
+    const struct figures *now = dialog->app->figures;
+    const struct export_wish *wish = &dialogs->exporting.memory.wish;
     const struct export_format *format = format_of(dialogs);
     struct ui *ui = &dialogs->dialog.ui;
     const float top = ui->y;
     char text[160];
-    if (is_running(dialog) && exporting->total > 0) {
-        snprintf(text, sizeof text, "%ld of %ld. Esc cancels and leaves nothing behind.", exporting->done,
-                 exporting->total);
+    if (is_running(dialog) && now->total > 0) {
+        snprintf(text, sizeof text, "%ld of %ld. Esc cancels and leaves nothing behind.", now->done, now->total);
     } else if (is_running(dialog)) {
         snprintf(text, sizeof text, "Getting ready. Esc cancels and leaves nothing behind.");
     } else {
@@ -504,7 +491,7 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     }
     if (is_running(dialog)) {
         const struct rect bar = ui_row(ui, 8);
-        const float part = exporting->total > 0 ? (float)exporting->done / (float)exporting->total : 0;
+        const float part = now->total > 0 ? (float)now->done / (float)now->total : 0;
         if (ui->pass == UI_PASS_DRAW) {
             drawlist_rounded(ui->list, bar, 4, theme()->fill);
             drawlist_rounded(ui->list, (struct rect){bar.x, bar.y, fmaxf(8, bar.w * part), bar.h}, 4,

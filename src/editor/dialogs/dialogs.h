@@ -17,8 +17,6 @@ void dialogs_save_as(struct dialogs *dialogs);
 void dialogs_export(struct dialogs *dialogs);
 /// Sets the Export dialog's initial choices.
 void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory);
-/// Reports the export's progress; `total` 0 if unknown.
-void dialogs_tell_export(struct dialogs *dialogs, long done, long total);
 /// Carries out `after` (new, figure, open, quit), but first offers Save, Discard and Cancel for unsaved work. After Save it goes on only if
 /// saving succeeded. REQUEST_OPEN without a path asks for one.
 void dialogs_leave(struct dialogs *dialogs, const struct request *after);
