@@ -16,21 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// The first active spline: the first that moves something, with its rig as the limb, else the first; -1 if none.
-static int first_spline(struct core *core)
-{
-    const struct document *document = core->document;
-    core->focus.limb = 0;
-    for (int kind = 0; kind < RIG_KINDS; kind++) {
-        for (int r = -1; (r = document_next_rig(document, (enum rig_kind)kind, r)) >= 0;) {
-            if (rig_input_count(document->rigs[r]) == 0) continue;
-            core->focus.limb = document->rigs[r]->id;
-            return rig_input(document->rigs[r], 0);
-        }
-    }
-    return document->spline_count > 0 ? 0 : -1;
-}
-
 void core_open(struct core *core)
 {
     const struct document *document = core->document;
@@ -48,7 +33,17 @@ void core_open(struct core *core)
     core->focus.pin.any = false;
     core->focus.pick = (struct bone_pick){0};
     memset(core->focus.recent, 0, sizeof core->focus.recent);
-    core->focus.active = first_spline(core);
+
+    // The first spline that moves something, with its rig as the limb, else the first.
+    core->focus.limb = 0;
+    core->focus.active = document->spline_count > 0 ? 0 : -1;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        for (int r = -1; !core->focus.limb && (r = document_next_rig(document, (enum rig_kind)kind, r)) >= 0;) {
+            if (rig_input_count(document->rigs[r]) == 0) continue;
+            core->focus.limb = document->rigs[r]->id;
+            core->focus.active = rig_input(document->rigs[r], 0);
+        }
+    }
     core->focus.active_id = core->focus.active >= 0 ? document->splines[core->focus.active]->id : 0;
     core->input.held_key = 0;
     core->input.space_down = false;

@@ -162,8 +162,11 @@ static void removal_free(struct removal *removal)
     free(removal->others);
 }
 
-static void remove_rig(struct core *core, int rig, bool with_splines)
+static void remove_rig(void *of, int answer)
 {
+    struct core *core = of;
+    const int rig = core->subject.rig;
+    const bool with_splines = answer == 0;
     struct document *document = core->document;
     struct error *error = &core->step.error;
     struct removal removal;
@@ -195,12 +198,6 @@ static void remove_rig(struct core *core, int rig, bool with_splines)
     removal_free(&removal);
 }
 
-static void answer_removal(void *of, int answer)
-{
-    struct core *core = of;
-    remove_rig(core, core->subject.rig, answer == 0);
-}
-
 void rigs_ask_remove(struct core *core, int rig)
 {
     static const struct answer answers[] = {
@@ -225,12 +222,12 @@ void rigs_ask_remove(struct core *core, int rig)
         count++;
     }
     removal_free(&removal);
+    core->subject.rig = rig;
     if (count == 0) {
-        remove_rig(core, rig, false);
+        remove_rig(core, 1);
         return;
     }
-    struct question *question = core_ask(core, answers, 3, answer_removal);
-    core->subject.rig = rig;
+    struct question *question = core_ask(core, answers, 3, remove_rig);
     snprintf(question->title, sizeof question->title, "Remove %.*s, with its spline%s or without?",
              name_fit(path_name(rig_title(document->rigs[rig])), 150), path_name(rig_title(document->rigs[rig])),
              count == 1 ? "" : "s");
@@ -346,20 +343,6 @@ void bones_clicked(struct core *core, int model, int node)
     }
 }
 
-/// A chain of a model that a spline bends, and the first such channel; NULL if there is none.
-static const struct rig *bent_by(const struct document *document, int spline, int model,
-                                 const struct channel **channel)
-{
-    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
-        const struct chain *chain = &document->rigs[r]->chain;
-        for (int c = 0; c < chain->channel_count; c++) {
-            *channel = &chain->channels[c];
-            if (chain->channels[c].spline == spline) return document->rigs[r];
-        }
-    }
-    return NULL;
-}
-
 /// The gain with which a channel bends its chain as far as its joint has moved.
 static double gain_for(const struct core *core, int model, const struct chain *chain, const struct channel *channel)
 {
@@ -378,8 +361,15 @@ void bones_follow(struct core *core, int spline, int model, int node)
     const struct param *old = &document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM];
     const struct imported *character = bones_character(core, model);
     if (!character) return;
+    const struct rig *rig = document->rigs[model], *bent = NULL; // the first chain that the spline bends
     const struct channel *channel = NULL;
-    const struct rig *bent = bent_by(document, spline, model, &channel), *rig = document->rigs[model];
+    for (int r = -1; !bent && (r = document_next_chain(document, model, r)) >= 0;) {
+        const struct chain *chain = &document->rigs[r]->chain;
+        for (int c = 0; c < chain->channel_count && !bent; c++) {
+            channel = &chain->channels[c];
+            if (channel->spline == spline) bent = document->rigs[r];
+        }
+    }
     struct joint_motion motion = {.model = rig->name ? rig->name : rig->model.model, .of = MOTION_TURN, .gain = 1};
     const struct param param = {.track = -1, .motion = &motion};
     if (bent) {
@@ -426,23 +416,6 @@ static bool find_ends(const struct imported *character, const struct chain *chai
     return chain_find(gltf, ends[0], ends[1], &bones, error);
 }
 
-/// Splines that followed a chain's old last bone follow its new one.
-static bool follow_end(struct core *core, const char *chain, const char *old, char *new)
-{
-    const struct document *document = core->document;
-    bool done = true;
-    for (int s = 0; s < document->spline_count; s++) {
-        struct param param = document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
-        if (!param.motion || !param.motion->chain || !chain) continue;
-        struct joint_motion motion = *param.motion;
-        if (strcmp(motion.chain, chain) != 0 || strcmp(motion.joint, old) != 0) continue;
-        motion.joint = new;
-        param.motion = &motion;
-        done &= edit_parameter(core->document, s, PARAMETER_EQUILIBRIUM, &param, &core->step.error);
-    }
-    return done;
-}
-
 void bones_set_end(struct core *core, int chain, bool first, int node)
 {
     struct rig contents = *core->document->rigs[chain];
@@ -458,9 +431,18 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     char *old = need_text(contents.chain.to);
     contents.chain.from = ends[0];
     contents.chain.to = ends[1];
-    const bool done = core_step(core, "Set chain's bones", 0) &&
-                      edit_rig_set(core->document, chain, &contents, &core->step.error) &&
-                      follow_end(core, contents.name, old, ends[1]);
+    bool done =
+        core_step(core, "Set chain's bones", 0) && edit_rig_set(core->document, chain, &contents, &core->step.error);
+    // Splines that followed the chain's old last bone follow its new one.
+    for (int s = 0; s < core->document->spline_count && done; s++) {
+        struct param param = core->document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
+        if (!param.motion || !param.motion->chain || !contents.name) continue;
+        struct joint_motion motion = *param.motion;
+        if (strcmp(motion.chain, contents.name) != 0 || strcmp(motion.joint, old) != 0) continue;
+        motion.joint = ends[1];
+        param.motion = &motion;
+        done = edit_parameter(core->document, s, PARAMETER_EQUILIBRIUM, &param, &core->step.error);
+    }
     free(old);
     if (!done) return;
     const struct rig *rig = core->document->rigs[chain];
@@ -673,10 +655,13 @@ void pins_put_here(struct core *core, int rig, int point, const double to[3])
     playback_seek(core, frame);
 }
 
-/// Equal nudges of a pin are one undo step.
-static uint64_t merge_key(const struct pin *pin, enum pin_nudge kind)
+/// Moves the selected pin in a step. Equal nudges are one step. false if it fails.
+static bool move_selected(struct core *core, int rig, const struct pin *moved, const char *label, enum pin_nudge kind)
 {
-    return hash_word(hash_word(HASH_START, (uint64_t)kind), pin->id);
+    const uint64_t merge = hash_word(hash_word(HASH_START, (uint64_t)kind), moved->id);
+    const bool done = core_step(core, label, merge) && pins_set(core->document, rig, moved, &core->step.error);
+    if (done) pins_tell(core, rig);
+    return done;
 }
 
 void pins_nudge(struct core *core, const double by[3])
@@ -686,8 +671,7 @@ void pins_nudge(struct core *core, const double by[3])
     if (!pin) return;
     struct pin moved = *pin;
     for (int k = 0; k < 3; k++) moved.to[k] += by[k];
-    if (!core_step(core, "Nudge pin", merge_key(pin, NUDGE_PLACE))) return;
-    if (pins_set(core->document, rig, &moved, &core->step.error)) pins_tell(core, rig);
+    move_selected(core, rig, &moved, "Nudge pin", NUDGE_PLACE);
 }
 
 void pins_retime(struct core *core, int frames)
@@ -703,10 +687,7 @@ void pins_retime(struct core *core, int frames)
         sample = document_sample(document, moved.frame);
         if (sample < 0 || sample > pins_last_sample(document, document->rigs[rig])) return;
     } while (pins_find(document, document->rigs[rig], pin->point, sample) >= 0);
-    if (!core_step(core, "Move pin in time", merge_key(pin, NUDGE_FRAME))) return;
-    if (!pins_set(core->document, rig, &moved, &core->step.error)) return;
-    playback_seek(core, moved.frame);
-    pins_tell(core, rig);
+    if (move_selected(core, rig, &moved, "Move pin in time", NUDGE_FRAME)) playback_seek(core, moved.frame);
 }
 
 /// Orders by frame, then id.

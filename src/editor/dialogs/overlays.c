@@ -299,30 +299,6 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
 }
 
-/// A row of the palette: name, what is missing, and keys.
-static void show_command(struct core *core, struct rect r, const struct commands_found *found, int row, bool chosen)
-{
-    struct drawlist *list = &core->list;
-    const struct command *command = found->list[row];
-    const char *missing = found->missing[row];
-    char keys[COMMAND_KEYS];
-    command_keys(command, keys);
-    if (chosen) {
-        drawlist_rounded(list, r, 4, theme()->fill);
-    } else if (rect_contains(r, core->input.pointer_x, core->input.pointer_y)) {
-        drawlist_rounded(list, r, 4, theme()->raised);
-    }
-    const float name = ceilf(ui_text_width(command->name)), right = ceilf(ui_text_width(keys));
-    const float from = r.x + 10 + name + PALETTE_GAP, end = r.x + r.w - 10 - (right > 0 ? right + PALETTE_GAP : 0);
-    paint_line(list, (struct rect){r.x + 10, r.y, r.w - 20, r.h}, FONT_LABEL,
-               missing ? theme()->text_dim : theme()->text, command->name);
-    paint_line(list, (struct rect){r.x + r.w - 10 - right, r.y, right + 1, r.h}, FONT_LABEL, theme()->text_dim, keys);
-    if (missing && end - from > 40) {
-        const float width = fminf(ceilf(ui_text_width(missing)), end - from);
-        paint_line(list, (struct rect){end - width, r.y, width + 1, r.h}, FONT_LABEL, theme()->text_dim, missing);
-    }
-}
-
 /// Draws rows of keys and names from `r` on, one row high.
 static void show_rows(struct drawlist *list, struct rect r, float keys, const struct command *const *rows, int count)
 {
@@ -432,12 +408,28 @@ void lookup_show(const struct dialogs *dialogs)
 
     const struct rect body = page.body;
     if (is_palette) {
-        struct rect row = {body.x, body.y, body.w, PALETTE_ROW};
+        struct rect row = {body.x + 10, body.y, body.w - 20, PALETTE_ROW};
         const int first = (int)list.offset, last = first + (int)page.view;
-        for (int i = first; i < found.count && i < last; i++, row.y += PALETTE_ROW)
-            show_command(core, row, &found, i, i == lookup->choice);
-        row.x += 10;
-        row.w -= 20;
+        for (int i = first; i < found.count && i < last; i++, row.y += PALETTE_ROW) {
+            const char *name = found.list[i]->name, *missing = found.missing[i];
+            const struct rect whole = {body.x, row.y, body.w, row.h};
+            char keys[COMMAND_KEYS];
+            command_keys(found.list[i], keys);
+            if (i == lookup->choice) {
+                drawlist_rounded(drawn, whole, 4, theme()->fill);
+            } else if (rect_contains(whole, core->input.pointer_x, core->input.pointer_y)) {
+                drawlist_rounded(drawn, whole, 4, theme()->raised);
+            }
+            const float right = ceilf(ui_text_width(keys)), from = row.x + ceilf(ui_text_width(name)) + PALETTE_GAP;
+            const float till = row.x + row.w - (right > 0 ? right + PALETTE_GAP : 0);
+            paint_line(drawn, row, FONT_LABEL, missing ? theme()->text_dim : theme()->text, name);
+            paint_line(drawn, (struct rect){row.x + row.w - right, row.y, right + 1, row.h}, FONT_LABEL,
+                       theme()->text_dim, keys);
+            if (!missing || till - from <= 40) continue;
+            const float width = fminf(ceilf(ui_text_width(missing)), till - from);
+            paint_line(drawn, (struct rect){till - width, row.y, width + 1, row.h}, FONT_LABEL, theme()->text_dim,
+                       missing);
+        }
         if (found.count == 0)
             paint_line(drawn, row, FONT_LABEL, theme()->text_dim, "No command matches. Esc closes.");
         return;
@@ -536,21 +528,6 @@ static void measure(const struct core *core, int count, float *what, float *why)
     }
 }
 
-static struct card corner_card(const struct core *core, enum form form, bool right)
-{
-    const struct rect *stage = &core->view.layout.stage;
-    struct card card = {.form = form, .hints = HINTS};
-    float what, why;
-    measure(core, HINTS, &what, &why);
-    card.before = form == FORM_WIDE ? what + CARD_GAP : 0;
-    const float closes = width_of(FONT_LABEL, more) + CARD_GAP + width_of(FONT_LABEL_BOLD, closing);
-    const float width = 2 * CARD_PAD + ceilf(fmaxf(fmaxf(card.before + why, what), closes));
-    const float height = 2 * CARD_PAD + (HINTS * (form == FORM_WIDE ? 1 : 2) + 1) * CARD_LINE + 2;
-    card.rect = (struct rect){right ? stage->x + stage->w - CARD_MARGIN - width : stage->x + CARD_MARGIN,
-                              stage->y + stage->h - CARD_MARGIN - height, width, height};
-    return card;
-}
-
 /// Hints in a band at the top, in place of the description. The camera keeps that height free.
 static struct card band_card(const struct core *core, int count)
 {
@@ -575,17 +552,27 @@ static struct card place_card(const struct core *core, struct rect figure)
     } places[] = {{FORM_WIDE, false}, {FORM_UPRIGHT, false}, {FORM_UPRIGHT, true}, {FORM_WIDE, true}};
     const bool legend =
         core->focus.characters.mapped || core->focus.brush.on; // the phase map's legend is at the left
-    const bool roomy = core->view.layout.stage.w >= WIDE && rigs_lead(core) != LEAD_CHARACTER;
+    const struct rect *stage = &core->view.layout.stage;
+    const bool roomy = stage->w >= WIDE && rigs_lead(core) != LEAD_CHARACTER;
+    const float closes = width_of(FONT_LABEL, more) + CARD_GAP + width_of(FONT_LABEL_BOLD, closing);
+    float what, why;
+    measure(core, HINTS, &what, &why);
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        const struct card card = corner_card(core, places[i].form, places[i].right);
+        const bool is_wide = places[i].form == FORM_WIDE;
         if (legend && !places[i].right) continue;
+        struct card card = {.form = places[i].form, .hints = HINTS, .before = is_wide ? what + CARD_GAP : 0};
+        const float width = 2 * CARD_PAD + ceilf(fmaxf(fmaxf(card.before + why, what), closes));
+        const float height = 2 * CARD_PAD + (HINTS * (is_wide ? 1 : 2) + 1) * CARD_LINE + 2;
+        card.rect =
+            (struct rect){places[i].right ? stage->x + stage->w - CARD_MARGIN - width : stage->x + CARD_MARGIN,
+                          stage->y + stage->h - CARD_MARGIN - height, width, height};
         const struct rect *r = &card.rect;
         const bool beside = r->x + r->w <= figure.x || r->x >= figure.x + figure.w || figure.w == 0;
-        const bool below = r->y >= core->view.layout.stage.y + CARD_TITLE; // the description's title
+        const bool below = r->y >= stage->y + CARD_TITLE; // the description's title
         if (roomy || (beside && below)) return card;
     }
-    const struct card band = band_card(core, core->view.layout.stage.h < TALL || !core->document->about ? 1 : 2);
-    return band.rect.w <= core->view.layout.stage.w ? band : band_card(core, 1);
+    const struct card band = band_card(core, stage->h < TALL || !core->document->about ? 1 : 2);
+    return band.rect.w <= stage->w ? band : band_card(core, 1);
 }
 
 bool welcome_event(struct dialogs *dialogs, const struct event *event)
