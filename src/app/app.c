@@ -326,45 +326,6 @@ void app_draw_exactly(struct app *app)
     draw_frame(app->draw, &input, &cost);
 }
 
-/// Completes and logs the frame's row; judges the resolution by it.
-static void end_frame(struct app *app)
-{
-    struct frame_row *row = &app->row;
-    const double end = clock_now();
-    row->t_s = app->frame_start - app->process_start;
-    row->frame_ms = 1e3 * (end - app->frame_start);
-    row->frame_interval_ms = 1e3 * (end - app->last_swap);
-    app->last_swap = end;
-    row->event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
-    row->allocations = allocation_count() - row->allocations;
-
-    if (app->draw && app->resolution.changed == resolution_now(app)) {
-        struct resolution_cost cost = {
-            .draw = 1e-3 * (row->upload_us + row->draw_us), .swap = 1e-3 * row->swap_us, .gpu = 1e-3 * app->gpu_us};
-        cost.before = row->frame_ms - cost.draw - cost.swap;
-        // A browser draws after the frame, and calls for the next when it keeps up.
-        if (platform_in_page()) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
-        resolution_measure(&app->resolution, &cost);
-    }
-    if (app->draw) platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->work.editor));
-
-    if (app->log) framelog_push(app->log, row);
-    double now = clock_now();
-    if (now - app->stats_time >= 0.5) {
-        bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing runs in real time
-        double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
-        app->figures.fps = fps;
-        app->figures.solve_us = row->solve_us;
-        app->stats_time = now;
-        app->stats_frame = app->frame;
-        pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
-    }
-    if (!app->options->frames_dir) return;
-    char path[PATH_MAX + 32]; // longer than any path the system accepts
-    snprintf(path, sizeof path, "%s/frame_%05ld.png", app->options->frames_dir, app->frame);
-    if (!app_screenshot(app, path, &app->error)) app->failed = true;
-}
-
 void app_frame(struct app *app)
 {
     struct workspace *work = &app->work;
@@ -404,16 +365,51 @@ void app_frame(struct app *app)
         app->must_redraw = false;
         const double swap_start = clock_now();
         platform_swap(app->platform);
-        const double end = clock_now();
-        pace_swapped(&app->pace, end, !app->was_idle && cost.rectangles > 0);
+        const double swapped = clock_now();
+        pace_swapped(&app->pace, swapped, !app->was_idle && cost.rectangles > 0);
         row->upload_us = cost.upload_us;
         row->draw_us = cost.draw_us;
         if (cost.gpu_us >= 0) app->gpu_us = cost.gpu_us;
         if (app->log && cost.gpu_us >= 0) framelog_gpu(app->log, cost.gpu_frame, cost.gpu_us);
         row->uploaded_bytes = cost.uploaded_bytes;
-        row->swap_us = microseconds(swap_start, end);
+        row->swap_us = microseconds(swap_start, swapped);
     }
-    end_frame(app);
+
+    // Completes and logs the row, and judges the resolution by it.
+    const double end = clock_now();
+    row->t_s = app->frame_start - app->process_start;
+    row->frame_ms = 1e3 * (end - app->frame_start);
+    row->frame_interval_ms = 1e3 * (end - app->last_swap);
+    app->last_swap = end;
+    row->event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
+    row->allocations = allocation_count() - row->allocations;
+
+    if (app->draw && app->resolution.changed == resolution_now(app)) {
+        struct resolution_cost cost = {
+            .draw = 1e-3 * (row->upload_us + row->draw_us), .swap = 1e-3 * row->swap_us, .gpu = 1e-3 * app->gpu_us};
+        cost.before = row->frame_ms - cost.draw - cost.swap;
+        // A browser draws after the frame, and calls for the next when it keeps up.
+        if (platform_in_page()) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
+        resolution_measure(&app->resolution, &cost);
+    }
+    if (app->draw) platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->work.editor));
+
+    if (app->log) framelog_push(app->log, row);
+    double now = clock_now();
+    if (now - app->stats_time >= 0.5) {
+        bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing runs in real time
+        double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
+        app->figures.fps = fps;
+        app->figures.solve_us = row->solve_us;
+        app->stats_time = now;
+        app->stats_frame = app->frame;
+        pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
+    }
+    if (app->options->frames_dir) {
+        char path[PATH_MAX + 32]; // longer than any path the system accepts
+        snprintf(path, sizeof path, "%s/frame_%05ld.png", app->options->frames_dir, app->frame);
+        if (!app_screenshot(app, path, &app->error)) app->failed = true;
+    }
     app->frame++;
 }
 

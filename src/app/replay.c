@@ -298,39 +298,6 @@ static bool read_escaped(struct event_line *c, const char *expected, const char 
     return true;
 }
 
-static bool read_operands(struct event_line *c, const struct verb *verb, struct event *event)
-{
-    const unsigned with = verb->operands;
-    if (with & WITH_KEY) {
-        char *word = take_word(c);
-        event->key = word ? key_from_name(word) : KEY_NONE;
-        if (event->key == KEY_NONE) return bad_line(c->replay, c->error, "the name of a key", word);
-    }
-    if (with & WITH_BUTTON) {
-        char *word = take_word(c);
-        int b = 0;
-        while (word && b <= BUTTON_MIDDLE && strcmp(word, button_names[b]) != 0) b++;
-        if (!word || b > BUTTON_MIDDLE) return bad_line(c->replay, c->error, "left, right or middle", word);
-        event->button = (enum event_button)b;
-    }
-    if (with & WITH_WHEEL && !(read_float(c, &event->dx) && read_float(c, &event->dy))) return false;
-    if (with & WITH_CODE) {
-        char *word = take_word(c);
-        if (!word || sscanf(word, "U+%" SCNx32, &event->codepoint) != 1)
-            return bad_line(c->replay, c->error, "U+ and a code", word);
-    }
-    if (with & WITH_POSITION && !read_position(c, event)) return false;
-    if (with & WITH_PATH && !read_escaped(c, "a path", &event->path)) return false;
-    if (with & WITH_TEXT && !read_escaped(c, "a text", &event->text)) return false;
-    for (char *word; with & WITH_MODS && (word = take_word(c));) {
-        int m = 0;
-        while (m < MOD_COUNT && strcmp(word, mod_names[m].name) != 0) m++;
-        if (m == MOD_COUNT) return bad_line(c->replay, c->error, "shift, ctrl, alt or super", word);
-        event->mods |= mod_names[m].mod;
-    }
-    return true;
-}
-
 bool replay_next(struct replay *replay, long frame, replay_locate *locate, void *user, struct event *event,
                  struct error *error)
 {
@@ -346,7 +313,34 @@ bool replay_next(struct replay *replay, long frame, replay_locate *locate, void 
     if (!word || v == VERB_COUNT) return bad_line(replay, error, "an event (pointer, press, key, …)", word);
     *event = (struct event){.kind = verbs[v].kind, .action = verbs[v].action, .clicks = verbs[v].clicks};
     if (event->kind == EVENT_SIZE) event->scale = (float)replay->header.scale;
-    if (!read_operands(&c, &verbs[v], event)) return false;
+    const unsigned with = verbs[v].operands;
+    if (with & WITH_KEY) {
+        word = take_word(&c);
+        event->key = word ? key_from_name(word) : KEY_NONE;
+        if (event->key == KEY_NONE) return bad_line(replay, error, "the name of a key", word);
+    }
+    if (with & WITH_BUTTON) {
+        word = take_word(&c);
+        int b = 0;
+        while (word && b <= BUTTON_MIDDLE && strcmp(word, button_names[b]) != 0) b++;
+        if (!word || b > BUTTON_MIDDLE) return bad_line(replay, error, "left, right or middle", word);
+        event->button = (enum event_button)b;
+    }
+    if (with & WITH_WHEEL && !(read_float(&c, &event->dx) && read_float(&c, &event->dy))) return false;
+    if (with & WITH_CODE) {
+        word = take_word(&c);
+        if (!word || sscanf(word, "U+%" SCNx32, &event->codepoint) != 1)
+            return bad_line(replay, error, "U+ and a code", word);
+    }
+    if (with & WITH_POSITION && !read_position(&c, event)) return false;
+    if (with & WITH_PATH && !read_escaped(&c, "a path", &event->path)) return false;
+    if (with & WITH_TEXT && !read_escaped(&c, "a text", &event->text)) return false;
+    for (; with & WITH_MODS && (word = take_word(&c));) {
+        int m = 0;
+        while (m < MOD_COUNT && strcmp(word, mod_names[m].name) != 0) m++;
+        if (m == MOD_COUNT) return bad_line(replay, error, "shift, ctrl, alt or super", word);
+        event->mods |= mod_names[m].mod;
+    }
     if (event->kind == EVENT_SIZE && !is_size((double)event->x, (double)event->y))
         return bad_line(replay, error, size_limits, c.words.word[2]);
     word = take_word(&c);
