@@ -181,21 +181,23 @@ enum { PLAY, LOOP, SPEED, AUTO_KEY, KEEP, SIZE, PRESENT, CONTROLS };
 static const struct {
     const char *name, *hint;
     float width;
+    void (*click)(struct core *core, int argument);
+    int argument;
 } controls[CONTROLS] = {
-    [PLAY] = {"play", "Play, pause (Space)", 24},
-    [LOOP] = {"loop", "Loop or stop at the end (Ctrl+L)", 42},
+    [PLAY] = {"play", "Play, pause (Space)", 24, playback_toggle, 0},
+    [LOOP] = {"loop", "Loop or stop at the end (Ctrl+L)", 42, core_flip, SWITCH_LOOP},
     [SPEED] = {"speed", "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)", 44},
     [AUTO_KEY] = {"auto-key",
                   "Auto-key: dragging the body sets knots at the playhead; off, it moves the whole shot (Shift+A)",
-                  64},
+                  64, core_flip, SWITCH_AUTO_KEY},
     [KEEP] = {"keep",
               "Keep: an edit changes nothing beyond the next knot, which becomes a pose; hold Alt to swing through "
               "(Alt+A)",
-              48},
+              48, core_flip, SWITCH_KEEP},
     [SIZE] = {"size",
               "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)", 48},
     [PRESENT] = {"present", "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
-                 28},
+                 28, presenter_toggle, 0},
 };
 
 /// In a narrow window a message takes the whole line.
@@ -209,12 +211,7 @@ static bool use_control(struct core *core, int control, const struct event *even
     const int step = turns ? (event->dy > 0 ? 1 : -1) : !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
     if (control == SPEED) playback_change_speed(core, step);
     if (control == SIZE) core_request(core, &(struct request){.kind = REQUEST_UI_SCALE, .number = step});
-    if (turns || !left) return true;
-    if (control == PLAY) playback_toggle(core, 0);
-    if (control == LOOP) core_flip(core, SWITCH_LOOP);
-    if (control == AUTO_KEY) core_flip(core, SWITCH_AUTO_KEY);
-    if (control == KEEP) core_flip(core, SWITCH_KEEP);
-    if (control == PRESENT) presenter_toggle(core, 0);
+    if (!turns && left && controls[control].click) controls[control].click(core, controls[control].argument);
     return true;
 }
 

@@ -233,15 +233,6 @@ static bool measure_bone(const struct stage *stage, const struct core *core, int
     return found->distance < REACH;
 }
 
-/// Whether a bone is a better target than the best so far, if both are close to the pointer. At a joint the bone that starts there wins.
-static bool is_better(const struct candidate *a, const struct candidate *best)
-{
-    if (best->bone < 0) return true;
-    if (fabsf(a->depth - best->depth) > AS_DEEP * best->depth) return a->depth < best->depth;
-    if (fabsf(a->distance - best->distance) > AS_FAR) return a->distance < best->distance;
-    return a->fraction < best->fraction;
-}
-
 struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     const float p[2] = {x, y};
@@ -251,9 +242,11 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
         if (measure_bone(stage, core, b, p, &candidate)) nearest = fminf(nearest, candidate.distance);
     }
     for (int b = 0; b < stage->bone_count && !core->focus.brush.on; b++) {
-        if (measure_bone(stage, core, b, p, &candidate) && candidate.distance < nearest + OVERLAP &&
-            is_better(&candidate, &best))
-            best = candidate;
+        if (!measure_bone(stage, core, b, p, &candidate) || candidate.distance >= nearest + OVERLAP) continue;
+        float worse = candidate.fraction - best.fraction; // at a joint the bone that starts there wins
+        if (fabsf(candidate.distance - best.distance) > AS_FAR) worse = candidate.distance - best.distance;
+        if (fabsf(candidate.depth - best.depth) > AS_DEEP * best.depth) worse = candidate.depth - best.depth;
+        if (best.bone < 0 || worse < 0) best = candidate;
     }
     if (best.bone < 0) return (struct hover){.thing = NULL};
     const struct shown_bone *bone = &stage->bones[best.bone];
