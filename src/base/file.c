@@ -169,8 +169,7 @@ bool file_same(const char *path, const char *other)
 /// The files that a thread reads. They are kept by path and compared as files, because a save gives a path another file.
 static _Thread_local struct {
     struct read_file {
-        char *path;
-        const char *as;
+        char *path, *as;
     } * files;
     size_t count;
     bool notes;
@@ -185,8 +184,7 @@ void file_note_read(const char *path, const char *as)
         if (strcmp(reads.files[i].path, path) == 0) return;
     }
     reads.files = need_more(reads.files, reads.count + 1, sizeof *reads.files);
-    char *kept = need_text(path);
-    reads.files[reads.count++] = (struct read_file){kept, as ? as : kept};
+    reads.files[reads.count++] = (struct read_file){need_text(path), need_text(as ? as : path)};
 }
 
 void file_forget_reads(const char *path)
@@ -198,6 +196,7 @@ void file_forget_reads(const char *path)
             reads.files[kept++] = file;
         } else {
             free(file.path);
+            free(file.as);
         }
     }
     reads.count = kept;

@@ -31,7 +31,7 @@ struct job {
     char rest_found[COMPANION_PATH]; ///< NAME.rest.obj beside the first motion, used unless `rest` is given
     struct mesh_options opening;     ///< of `rest`
     double fps;                      ///< 0: from the files
-    int method;                      ///< 0: default, else as in method_of()
+    enum analysis_method method;
     int modes;
     bool no_normals;
     double from;          ///< seconds; below 0: what the files say
@@ -62,12 +62,6 @@ struct result {
     struct analyzed *analyzed; ///< one per coordinate
     int filled;                ///< coordinates so far
 };
-
-static enum analysis_method method_of(const struct job *job)
-{
-    enum { CPCA = 2 }; // index in the option's words
-    return job->method == CPCA ? ANALYSIS_CPCA : ANALYSIS_POLES;
-}
 
 /// Splits --shake at colons; false if a part is no direction or the number of parts is wrong.
 static bool read_directions(struct job *job, int files)
@@ -347,10 +341,10 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
         const bool directed = job->direction_count > 0;
         const double driven = job->from >= 0 ? job->from * in.fps : in.made.from * in.made.fps; // frames
         const struct analysis_plan plan = {
-            .method = method_of(job),
+            .method = job->method,
             .fps = in.fps,
             .modes = job->modes,
-            .first = method_of(job) == ANALYSIS_CPCA ? 0 : (int)fmin(ceil(driven), ANALYSIS_FRAMES_MAX),
+            .first = job->method == ANALYSIS_CPCA ? 0 : (int)fmin(ceil(driven), ANALYSIS_FRAMES_MAX),
             .direction = directed             ? job->directions[job->direction_count > 1 ? file : 0]
                          : in.made.frames > 0 ? in.made.shake
                                               : NULL,
@@ -400,45 +394,46 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
 int command_analyze(int argc, char **argv)
 {
     struct job job = {.modes = 1, .opening = {.scale = 1}, .from = -1};
+    int method = 0;
     const struct option_spec options[] = {
-        {"--rest", NULL, "FILE",
+        {"--rest FILE",
          "mesh at rest (OBJ, STL, PLY, OFF, glTF), the same vertices in order (that of the simulation)", OPTION_INPUT,
          &job.rest, 0, 0},
         MESH_OPTIONS(&job.opening),
-        {"--output", "-o", "FILE", "required: the character to write (.glb)", OPTION_OUTPUT, &job.output, 0, 0},
-        {"--fps", NULL, "N", "frames per second (those of the file or of the simulation)", OPTION_REAL, &job.fps,
-         1e-3, 100000},
-        {"--modes", NULL, "K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1,
-         MODES_MAX},
-        {"--no-normals", NULL, NULL, "leave out the morph targets' normals: a smaller file, the same in wiggly",
-         OPTION_FLAG, &job.no_normals, 0, 0},
-        {"--shake", NULL, "DIR",
-         "direction of the shake: up, side, front or x,y,z; one for all or one per file, up:side (the simulation's)",
+        {"-o, --output FILE", "required: the character to write (.glb)", OPTION_OUTPUT, &job.output, 0, 0},
+        {"--fps N", "frames per second (those of the file or of the simulation)", OPTION_REAL, &job.fps, 1e-3,
+         100000},
+        {"--modes K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1, MODES_MAX},
+        {"--no-normals", "leave out the morph targets' normals: a smaller file, the same in wiggly", OPTION_FLAG,
+         &job.no_normals, 0, 0},
+        {"--shake DIR",
+         "direction of the shake: up, side, front or x,y,z; one for all or one per file, up:side "
+         "(the simulation's)",
          OPTION_TEXT, &job.shake, 0, 0},
-        {"--pin", NULL, "WHERE",
+        {"--pin WHERE",
          "what holds the mesh, as in simulate: its motion is removed; none: nothing (the simulation's)", OPTION_TEXT,
          &job.pin, 0, 0},
-        {"--method", NULL, "poles|cpca", "one coordinate per pole (default), or complex principal components",
-         OPTION_WORD, &job.method, 0, 0},
-        {"--from", NULL, "S", "the second when the drive stops: poles are found from there on (the simulation's)",
-         OPTION_REAL, &job.from, 0, 1e6},
-        {"--scene", NULL, "FILE", "also write a scene whose knots repeat the motions", OPTION_OUTPUT, &job.scene, 0,
-         0},
-        {"--coordinates", NULL, "FILE", "also write the time series of each coordinate and its spline, as CSV",
-         OPTION_OUTPUT, &job.coordinates, 0, 0},
+        {"--method poles|cpca", "one coordinate per pole (default), or complex principal components", OPTION_WORD,
+         &method, 0, 0},
+        {"--from S", "the second when the drive stops: poles are found from there on (the simulation's)", OPTION_REAL,
+         &job.from, 0, 1e6},
+        {"--scene FILE", "also write a scene whose knots repeat the motions", OPTION_OUTPUT, &job.scene, 0, 0},
+        {"--coordinates FILE", "also write the time series of each coordinate and its spline, as CSV", OPTION_OUTPUT,
+         &job.coordinates, 0, 0},
+        {0},
     };
     const struct usage usage = {
         .command = "analyze",
         .operands = "up.npy [side.npy ...]",
         .summary = "Finds the complex normal coordinate of each motion (.npy, .pc2, .mdd) and writes a character.",
         .options = options,
-        .option_count = sizeof options / sizeof options[0],
         .operand_maximum = FILES_MAX,
     };
-    enum options_result result = options_parse(&usage, argc, argv, job.files);
-    if (result != OPTIONS_RUN) return (int)result;
+    const int result = options_parse(&usage, argc, argv, job.files);
+    if (result != OPTIONS_RUN) return result;
 
     int files = 0;
+    job.method = method == 2 ? ANALYSIS_CPCA : ANALYSIS_POLES;
     while (job.files[files]) files++;
     if (!job.rest && companion_path(job.files[0], ".rest.obj", job.rest_found) && access(job.rest_found, R_OK) == 0)
         job.rest = job.rest_found;
@@ -449,11 +444,11 @@ int command_analyze(int argc, char **argv)
         wrong = "--pin: expected " REGION_FORMS;
     else if (!job.output)
         wrong = "-o creature.glb is missing: name the file to write";
-    else if (job.from > 0 && method_of(&job) == ANALYSIS_CPCA)
+    else if (job.from > 0 && job.method == ANALYSIS_CPCA)
         wrong = "--from has no effect with --method cpca: leave one out";
     else if (!read_directions(&job, files))
         wrong = "--shake: expected up, side, front or a vector x,y,z; one for all files, or one per file (up:side)";
-    if (wrong) return (int)options_wrong(&usage, "%s", wrong);
+    if (wrong) return options_wrong(&usage, "%s", wrong);
     progress_end_when_interrupted();
     struct error error;
     return options_end(analyse_files(&job, files, &error), &error);

@@ -18,12 +18,6 @@ static void print_problem(void *user, bool is_error, const char *sentence)
     print_line(stdout, "%s%s", is_error ? "" : "warning: ", sentence);
 }
 
-static void print_warning(void *user, const char *sentence)
-{
-    const char *const *path = user;
-    print_line(stdout, "warning: %s: %s", *path, sentence);
-}
-
 int command_check(int argc, char **argv)
 {
     const char *path;
@@ -31,10 +25,10 @@ int command_check(int argc, char **argv)
         .command = "check",
         .operands = "scene.json",
         .summary = "Prints every problem in a scene file, with its line, or a character's clips, bones and chains.",
-        .operand_maximum = 1,
+        .options = (const struct option_spec[]){{0}},
     };
-    enum options_result result = options_parse(&usage, argc, argv, &path);
-    if (result != OPTIONS_RUN) return (int)result;
+    const int result = options_parse(&usage, argc, argv, &path);
+    if (result != OPTIONS_RUN) return result;
     struct error error = {0};
     if (import_suits(path)) {
         struct imported imported;
@@ -88,7 +82,7 @@ int command_check(int argc, char **argv)
                    "warning: %s: splines[%d]: \"%s\": the equilibrium of this loop does not end where it starts",
                    path, i, spline->name);
     }
-    solution_warnings(document, evaluation, print_warning, &path);
+    solution_warnings(document, evaluation, path, stdout);
     opened_free(&opened);
     return good ? 0 : ERROR_INPUT;
 }

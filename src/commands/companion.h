@@ -35,9 +35,9 @@ struct mesh_options {
 
 /// Rows of an option table.
 #define MESH_OPTIONS(mesh)                                                                                           \
-    {"--up", NULL, "x|y|z", "the mesh's axis that points up (y)", OPTION_WORD, &(mesh)->up, 0, 0},                   \
+    {"--up x|y|z", "the mesh's axis that points up (y)", OPTION_WORD, &(mesh)->up, 0, 0},                            \
     {                                                                                                                \
-        "--scale", NULL, "S", "metres per unit of the mesh (1)", OPTION_REAL, &(mesh)->scale, 1e-9, 1e9              \
+        "--scale S", "metres per unit of the mesh (1)", OPTION_REAL, &(mesh)->scale, 1e-9, 1e9                       \
     }
 
 /// Reads a mesh, turns it upright, scales it, and warns about what was left out.

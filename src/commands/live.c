@@ -18,66 +18,59 @@ static void show_large(const char *doing, long done, long bytes)
 
 int command_live(int argc, char **argv)
 {
-    struct app_options options = {0};
+    struct app_options app = {0};
     int size[2] = {0, 0};
-    enum { COMMON = 5 };
-    const struct option_spec specs[] = {
-        {"--size", NULL, "WxH", "size of the window in logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
-        {"--ui-scale", NULL, "S", "size of text and controls (default: as last chosen with F8, else 1)", OPTION_REAL,
-         &options.ui_scale, 0.75, 3},
-        OPTION_THEME(&options.theme, "colours (default: as last chosen with F10, else dark)"),
-        {"--demo", NULL, NULL, "show what the app does, in a loop; the first key or click opens the start scene",
-         OPTION_FLAG, &options.demo, 0, 0},
-        {"--welcome", NULL, NULL, "show what to try first, as on the first start in a window", OPTION_FLAG,
-         &options.welcome, 0, 0},
-        {"--still", NULL, NULL, "start paused, for those whom motion disturbs", OPTION_FLAG, &options.still, 0, 0},
-        {"--headless", NULL, NULL, "draw without a display", OPTION_FLAG, &options.headless, 0, 0},
-        {"--no-draw", NULL, NULL, "headless without OpenGL: plays a replay and writes --result", OPTION_FLAG,
-         &options.no_draw, 0, 0},
-        {"--frames", NULL, "N", "stop after N frames (default: the replay's length; headless 1200)", OPTION_INT,
-         &options.frames, 1, 10000000},
-        {"--scale", NULL, "S", "device pixels per logical pixel, headless only", OPTION_REAL, &options.scale, 0.5, 4},
-        {"--stage-scale", NULL, "S",
-         "stage resolution while it moves: auto or 0.25 to 1 (default: auto in a window, else 1)", OPTION_TEXT,
-         &options.stage_scale, 0, 0},
-        OPTION_SOLVER(&options.solver),
-        {"--gl-debug", NULL, NULL, "print the OpenGL driver's messages; fail if it complains", OPTION_FLAG,
-         &options.gl_debug, 0, 0},
-        {"--log", NULL, "FILE.csv", "write a timing log, one row per frame", OPTION_OUTPUT, &options.log, 0, 0},
-        {"--screenshot", NULL, "FILE.png", "save a picture of the last frame", OPTION_OUTPUT, &options.screenshot, 0,
-         0},
-        {"--frames-dir", NULL, "DIR", "save a PNG of every frame", OPTION_TEXT, &options.frames_dir, 0, 0},
-        {"--replay", NULL, "FILE", "play recorded input", OPTION_INPUT, &options.replay, 0, 0},
-        {"--saves", NULL, "DIR", "folder for what a replay saves and exports (default: it writes nothing)",
-         OPTION_TEXT, &options.saves, 0, 0},
-        {"--record", NULL, "FILE", "record all input", OPTION_OUTPUT, &options.record, 0, 0},
-        {"--turns", NULL, "first|second", "draw frames in turn with another program (docs/measuring.md)", OPTION_WORD,
-         &options.turns, 0, 0},
-        {"--result", NULL, "FILE.json", "write the document at the end", OPTION_OUTPUT, &options.result, 0, 0},
+    const struct option_spec options[] = {
+        {"--size WxH", "size of the window in logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
+        {"--ui-scale S", "size of text and controls (default: as last chosen with F8, else 1)", OPTION_REAL,
+         &app.ui_scale, 0.75, 3},
+        OPTION_THEME(&app.theme, "colours (default: as last chosen with F10, else dark)"),
+        {"--demo", "show what the app does, in a loop; the first key or click opens the start scene", OPTION_FLAG,
+         &app.demo, 0, 0},
+        {"--welcome", "show what to try first, as on the first start in a window", OPTION_FLAG, &app.welcome, 0, 0},
+        {"--still", "start paused, for those whom motion disturbs", OPTION_FLAG, &app.still, 0, 0},
+        {"--headless", "draw without a display", OPTION_FLAG, &app.headless, 0, 0},
+        {"--no-draw", "headless without OpenGL: plays a replay and writes --result", OPTION_FLAG, &app.no_draw, 0, 0},
+        {"--frames N", "stop after N frames (default: the replay's length; headless 1200)", OPTION_INT, &app.frames,
+         1, 10000000},
+        {"--scale S", "device pixels per logical pixel, headless only", OPTION_REAL, &app.scale, 0.5, 4},
+        {"--stage-scale S", "stage resolution while it moves: auto or 0.25 to 1 (default: auto in a window, else 1)",
+         OPTION_TEXT, &app.stage_scale, 0, 0},
+        OPTION_SOLVER(&app.solver),
+        {"--gl-debug", "print the OpenGL driver's messages; fail if it complains", OPTION_FLAG, &app.gl_debug, 0, 0},
+        {"--log FILE.csv", "write a timing log, one row per frame", OPTION_OUTPUT, &app.log, 0, 0},
+        {"--screenshot FILE.png", "save a picture of the last frame", OPTION_OUTPUT, &app.screenshot, 0, 0},
+        {"--frames-dir DIR", "save a PNG of every frame", OPTION_TEXT, &app.frames_dir, 0, 0},
+        {"--replay FILE", "play recorded input", OPTION_INPUT, &app.replay, 0, 0},
+        {"--saves DIR", "folder for what a replay saves and exports (default: it writes nothing)", OPTION_TEXT,
+         &app.saves, 0, 0},
+        {"--record FILE", "record all input", OPTION_OUTPUT, &app.record, 0, 0},
+        {"--turns first|second", "draw frames in turn with another program (docs/measuring.md)", OPTION_WORD,
+         &app.turns, 0, 0},
+        {"--result FILE.json", "write the document at the end", OPTION_OUTPUT, &app.result, 0, 0},
+        {0},
     };
     const struct usage usage = {
         .command = "live",
         .operands = "[scene.json]",
         .summary = "The app. Without a scene it opens the fox.",
-        .options = specs,
-        .option_count = sizeof specs / sizeof *specs,
-        .common_count = COMMON,
-        .operand_maximum = 1,
+        .options = options,
+        .common_count = 5,
     };
-    enum options_result result = options_parse(&usage, argc, argv, &options.scene);
-    if (result != OPTIONS_RUN) return (int)result;
-    if (options.demo && (options.scene || options.replay || options.record))
-        return (int)options_wrong(&usage,
-                                  "--demo brings its own scene and input: expected no scene, --replay or --record");
-    if (options.no_draw && (options.screenshot || options.frames_dir || options.gl_debug))
-        return (int)options_wrong(&usage, "--no-draw: expected no --screenshot, --frames-dir or --gl-debug");
-    if (options.saves && !options.replay)
-        return (int)options_wrong(&usage, "--saves is for what a replay writes: expected --replay, too");
-    options.width = size[0];
-    options.height = size[1];
+    const int result = options_parse(&usage, argc, argv, &app.scene);
+    if (result != OPTIONS_RUN) return result;
+    if (app.demo && (app.scene || app.replay || app.record))
+        return options_wrong(&usage,
+                             "--demo brings its own scene and input: expected no scene, --replay or --record");
+    if (app.no_draw && (app.screenshot || app.frames_dir || app.gl_debug))
+        return options_wrong(&usage, "--no-draw: expected no --screenshot, --frames-dir or --gl-debug");
+    if (app.saves && !app.replay)
+        return options_wrong(&usage, "--saves is for what a replay writes: expected --replay, too");
+    app.width = size[0];
+    app.height = size[1];
     progress_listen(show_large);
     struct error error = {0};
-    int status = app_run(&options, &error);
+    int status = app_run(&app, &error);
     if (status != 0) fprintf(stderr, "wiggly live: %s\n", error.text);
     return status;
 }
@@ -89,10 +82,10 @@ int command_log(int argc, char **argv)
         .command = "log",
         .operands = "FILE.csv",
         .summary = "Prints percentiles, frames over budget, a histogram and the slowest frames of a timing log.",
-        .operand_maximum = 1,
+        .options = (const struct option_spec[]){{0}},
     };
-    enum options_result result = options_parse(&usage, argc, argv, &path);
-    if (result != OPTIONS_RUN) return (int)result;
+    const int result = options_parse(&usage, argc, argv, &path);
+    if (result != OPTIONS_RUN) return result;
     struct timing_log log;
     struct error error = {0};
     const bool done = timing_log_read(path, &log, &error);

@@ -9,49 +9,42 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WORD_MAX = 63, OPTION_MAX = 32 };
+enum { WORD_MAX = 63 };
 
 static int smaller(int a, int b) { return a < b ? a : b; }
-
-/// Optimal string alignment distance (insertions, deletions, replacements, swaps of neighbours), with three rows of its table. Words are
-/// cut at WORD_MAX.
-static int edit_distance(const char *a, const char *b)
-{
-    int rows[3][WORD_MAX + 1];
-    int *two_ago = rows[0], *before = rows[1], *row = rows[2];
-    int a_length = (int)strnlen(a, WORD_MAX), b_length = (int)strnlen(b, WORD_MAX);
-    for (int j = 0; j <= b_length; j++) row[j] = j;
-    for (int i = 1; i <= a_length; i++) {
-        int *free_row = two_ago;
-        two_ago = before;
-        before = row;
-        row = free_row;
-        row[0] = i;
-        for (int j = 1; j <= b_length; j++) {
-            row[j] = before[j - 1] + (a[i - 1] != b[j - 1]);
-            row[j] = smaller(row[j], 1 + smaller(before[j], row[j - 1]));
-            bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped) row[j] = smaller(row[j], two_ago[j - 2] + 1);
-        }
-    }
-    return row[b_length];
-}
 
 const char *options_nearest(const char *word, const char *const *candidates, int count)
 {
     const char *nearest = NULL;
-    int best = (int)strnlen(word, WORD_MAX) / 3 + 1; // a larger distance means another word
-    for (int i = 0; i < count; i++) {
-        int distance = edit_distance(word, candidates[i]);
-        if (distance < best) {
-            best = distance;
-            nearest = candidates[i];
+    const int word_length = (int)strnlen(word, WORD_MAX);
+    int best = word_length / 3 + 1; // a larger distance means another word
+    for (int c = 0; c < count; c++) {
+        // Optimal string alignment distance (insertions, deletions, replacements, swaps of neighbours), with three rows of its table.
+        // Words are cut at WORD_MAX.
+        const char *other = candidates[c];
+        const int length = (int)strnlen(other, WORD_MAX);
+        int rows[3][WORD_MAX + 1];
+        for (int j = 0; j <= length; j++) rows[0][j] = j;
+        for (int i = 1; i <= word_length; i++) {
+            int *row = rows[i % 3];
+            const int *before = rows[(i + 2) % 3], *two_ago = rows[(i + 1) % 3];
+            row[0] = i;
+            for (int j = 1; j <= length; j++) {
+                row[j] = before[j - 1] + (word[i - 1] != other[j - 1]);
+                row[j] = smaller(row[j], 1 + smaller(before[j], row[j - 1]));
+                bool swapped = i > 1 && j > 1 && word[i - 1] == other[j - 2] && word[i - 2] == other[j - 1];
+                if (swapped) row[j] = smaller(row[j], two_ago[j - 2] + 1);
+            }
         }
+        const int distance = rows[word_length % 3][length];
+        if (distance >= best) continue;
+        best = distance;
+        nearest = other;
     }
     return nearest;
 }
 
-enum options_result options_wrong(const struct usage *usage, const char *format, ...)
+int options_wrong(const struct usage *usage, const char *format, ...)
 {
     char text[4096];
     va_list arguments;
@@ -60,6 +53,15 @@ enum options_result options_wrong(const struct usage *usage, const char *format,
     va_end(arguments);
     print_line(stderr, "wiggly %s: %s; see wiggly %s --help", usage->command, text, usage->command);
     return OPTIONS_WRONG;
+}
+
+/// Copies the long name of "-o, --output FILE", and returns the rest, "FILE".
+static const char *split_words(const struct option_spec *option, char name[WORD_MAX + 1])
+{
+    const char *start = strstr(option->words, "--");
+    const size_t length = strcspn(start, " ");
+    snprintf(name, WORD_MAX + 1, "%.*s", (int)length, start);
+    return start + length + (start[length] == ' ');
 }
 
 /// Parses an integer in [minimum, maximum] that ends at `end`.
@@ -75,10 +77,11 @@ static bool read_int(const char *text, char end, double minimum, double maximum,
     return true;
 }
 
-static enum options_result store_value(const struct usage *usage, const struct option_spec *option, const char *text)
+static int store_value(const struct usage *usage, const struct option_spec *option, const char *text)
 {
-    const char *rest;
-    double low = option->minimum, high = option->maximum;
+    char name[WORD_MAX + 1], expected[2 * WORD_MAX] = "", *stop;
+    const char *argument = split_words(option, name), *rest;
+    const double low = option->minimum, high = option->maximum;
     switch (option->kind) {
     case OPTION_FLAG:
         *(bool *)option->target = true;
@@ -86,30 +89,26 @@ static enum options_result store_value(const struct usage *usage, const struct o
     case OPTION_TEXT:
     case OPTION_INPUT:
     case OPTION_OUTPUT:
-        if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
-        *(const char **)option->target = text;
-        return OPTIONS_RUN;
     case OPTION_LIST: {
-        struct option_list *list = option->target;
-        if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
-        if (list->count == OPTION_LIST_MOST)
-            return options_wrong(usage, "%s: expected at most %d times, got more", option->name, OPTION_LIST_MOST);
-        list->text[list->count++] = text;
+        struct option_list *list = option->kind == OPTION_LIST ? option->target : NULL;
+        if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", name, argument);
+        if (list && list->count == OPTION_LIST_MOST)
+            return options_wrong(usage, "%s: expected at most %d times, got more", name, OPTION_LIST_MOST);
+        *(list ? &list->text[list->count++] : (const char **)option->target) = text;
         return OPTIONS_RUN;
     }
     case OPTION_INT:
         if (read_int(text, 0, low, high, option->target, &rest)) return OPTIONS_RUN;
-        return options_wrong(usage, "%s: expected a whole number from %.10g to %.10g, got '%s'", option->name, low,
-                             high, text);
+        snprintf(expected, sizeof expected, "a whole number from %.10g to %.10g", low, high);
+        break;
     case OPTION_REAL: {
-        char *stop;
         const double number = strtod(text, &stop);
         if (stop != text && !*stop && isfinite(number) && number >= low && number <= high) {
             *(double *)option->target = number;
             return OPTIONS_RUN;
         }
-        return options_wrong(usage, "%s: expected a number from %.10g to %.10g, got '%s'", option->name, low, high,
-                             text);
+        snprintf(expected, sizeof expected, "a number from %.10g to %.10g", low, high);
+        break;
     }
     case OPTION_SIZE: {
         int size[2];
@@ -117,85 +116,71 @@ static enum options_result store_value(const struct usage *usage, const struct o
             memcpy(option->target, size, sizeof size);
             return OPTIONS_RUN;
         }
-        return options_wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name,
-                             low, high, text);
+        snprintf(expected, sizeof expected, "WIDTHxHEIGHT, each from %.10g to %.10g", low, high);
+        break;
     }
-    case OPTION_WORD: { // the index of one of "a|b|c", from 1
-        char list[2 * WORD_MAX] = "";
-        const size_t length = strlen(text);
+    case OPTION_WORD: {
         int number = 0;
-        for (const char *word = option->argument; *word;) {
-            const size_t span = strcspn(word, "|"), used = strlen(list);
+        for (const char *word = argument; *word;) {
+            const size_t span = strcspn(word, "|"), used = strlen(expected);
             number++;
-            if (span == length && strncmp(word, text, span) == 0) {
+            if (span == strlen(text) && strncmp(word, text, span) == 0) {
                 *(int *)option->target = number;
                 return OPTIONS_RUN;
             }
-            const char *next = word + span + (word[span] == '|'), *joint = !*next              ? ""
-                                                                           : strchr(next, '|') ? ", "
-                                                                                               : " or ";
-            snprintf(list + used, sizeof list - used, "%.*s%s", (int)span, word, joint);
+            const char *next = word + span + (word[span] == '|');
+            const char *joint = !*next ? "" : strchr(next, '|') ? ", " : " or ";
+            snprintf(expected + used, sizeof expected - used, "%.*s%s", (int)span, word, joint);
             word = next;
         }
-        return options_wrong(usage, "%s: expected %s, got '%s'", option->name, list, text);
     }
     }
-    return OPTIONS_WRONG;
+    return options_wrong(usage, "%s: expected %s, got '%s'", name, expected, text);
 }
 
 /// Parses the option at argv[*at] and its value. *at ends on the last word used.
-static enum options_result read_option(const struct usage *usage, int argc, char **argv, int *at)
+static int read_option(const struct usage *usage, int argc, char **argv, int *at)
 {
     const char *word = argv[*at];
     const char *equals = word[1] == '-' ? strchr(word, '=') : NULL;
-    size_t length = equals ? (size_t)(equals - word) : strlen(word);
-    const struct option_spec *option = NULL;
-    for (int i = 0; i < usage->option_count && !option; i++) {
-        const struct option_spec *one = &usage->options[i];
-        const bool named = strlen(one->name) == length && strncmp(word, one->name, length) == 0;
-        if (named || (one->alias && strcmp(word, one->alias) == 0)) option = one;
+    char names[OPTIONS_MOST][WORD_MAX + 1], given[WORD_MAX + 1];
+    const char *candidates[OPTIONS_MOST + 1];
+    int count = 0;
+    snprintf(given, sizeof given, "%.*s", (int)(equals ? (size_t)(equals - word) : strlen(word)), word);
+    for (const struct option_spec *option = usage->options; option->words; option++) {
+        const char *argument = split_words(option, names[count]);
+        const bool is_short = option->words[1] != '-' && strlen(word) == 2 && strncmp(word, option->words, 2) == 0;
+        if (is_short || strcmp(given, names[count]) == 0) {
+            if (option->kind == OPTION_FLAG && equals) return options_wrong(usage, "%s takes no value", names[count]);
+            if (option->kind == OPTION_FLAG || equals) return store_value(usage, option, equals ? equals + 1 : NULL);
+            if (*at + 1 < argc) return store_value(usage, option, argv[++*at]);
+            return options_wrong(usage, "%s needs a value: %s", names[count], argument);
+        }
+        candidates[count] = names[count];
+        count++;
     }
-    if (!option) {
-        const char *names[OPTION_MAX + 1];
-        int count = 0;
-        for (int i = 0; i < usage->option_count && i < OPTION_MAX; i++) names[count++] = usage->options[i].name;
-        names[count++] = "--help";
-        char given[WORD_MAX + 1];
-        snprintf(given, sizeof given, "%.*s", (int)length, word);
-        const char *nearest = options_nearest(given, names, count);
-        if (nearest) return options_wrong(usage, "unknown option %s (did you mean %s?)", given, nearest);
-        return options_wrong(usage, "unknown option %s", given);
-    }
-    if (option->kind == OPTION_FLAG) {
-        if (equals) return options_wrong(usage, "%s takes no value", option->name);
-        return store_value(usage, option, NULL);
-    }
-    if (equals) return store_value(usage, option, equals + 1);
-    if (*at + 1 >= argc) return options_wrong(usage, "%s needs a value: %s", option->name, option->argument);
-    return store_value(usage, option, argv[++*at]);
+    candidates[count++] = "--help";
+    const char *nearest = options_nearest(given, candidates, count);
+    if (nearest) return options_wrong(usage, "unknown option %s (did you mean %s?)", given, nearest);
+    return options_wrong(usage, "unknown option %s", given);
 }
 
-enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands)
+int options_parse(const struct usage *usage, int argc, char **argv, const char **operands)
 {
+    const int most = usage->operand_maximum ? usage->operand_maximum : 1;
     int count = 0;
     bool only_operands = false;
-    for (int i = 0; i < usage->operand_maximum; i++) operands[i] = NULL;
+    for (int i = 0; i < most; i++) operands[i] = NULL;
     for (int i = 1; i < argc; i++) {
         const bool asks_all = !only_operands && strcmp(argv[i], "--help-all") == 0;
         if (asks_all || (!only_operands && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0))) {
-            const int shown = asks_all || !usage->common_count ? usage->option_count : usage->common_count;
-            printf("Usage: wiggly %s%s %s\n%s\n", usage->command, usage->option_count ? " [options]" : "",
-                   usage->operands, usage->summary);
-            if (usage->option_count) printf("\nOptions:\n");
-            for (int o = 0; o < shown; o++) {
-                const struct option_spec *option = &usage->options[o];
-                char left[WORD_MAX + 1];
-                snprintf(left, sizeof left, "%s%s%s%s%s", option->alias ? option->alias : "",
-                         option->alias ? ", " : "", option->name, option->argument ? " " : "",
-                         option->argument ? option->argument : "");
-                printf("  %-26s %s\n", left, option->help);
-            }
-            if (shown < usage->option_count) printf("\nwiggly %s --help-all lists all options.\n", usage->command);
+            const struct option_spec *option = usage->options;
+            printf("Usage: wiggly %s%s %s\n%s\n", usage->command, option->words ? " [options]" : "", usage->operands,
+                   usage->summary);
+            if (option->words) printf("\nOptions:\n");
+            int left = asks_all || !usage->common_count ? OPTIONS_MOST : usage->common_count;
+            for (; option->words && left > 0; left--, option++) printf("  %-26s %s\n", option->words, option->help);
+            if (option->words) printf("\nwiggly %s --help-all lists all options.\n", usage->command);
             return OPTIONS_HELP;
         }
         if (!only_operands && strcmp(argv[i], "--") == 0) {
@@ -204,7 +189,7 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
             if (read_option(usage, argc, argv, &i) == OPTIONS_WRONG) return OPTIONS_WRONG;
         } else if (!*argv[i]) {
             return options_wrong(usage, "expected %s, got an empty argument", usage->operands);
-        } else if (count < usage->operand_maximum) {
+        } else if (count < most) {
             operands[count++] = argv[i];
         } else {
             return options_wrong(usage, "'%s' is one argument too many", argv[i]);
@@ -214,26 +199,25 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
         return options_wrong(usage, "an argument is missing: %s", usage->operands);
 
     // An output must not be another output, or an input. Devices and pipes may be shared.
-    static char operand[WORD_MAX + 1];
-    const char *word = usage->operands + (usage->operands[0] == '[');
-    snprintf(operand, sizeof operand, "%.*s", (int)strcspn(word, " ]"), word);
-    for (int i = 0; i < usage->operand_maximum && operands[i]; i++) file_note_read(operands[i], operand);
-    for (int i = 0; i < usage->option_count; i++) {
-        const struct option_spec *input = &usage->options[i];
-        const char *path = input->kind == OPTION_INPUT ? *(const char **)input->target : NULL;
-        if (path) file_note_read(path, input->name);
+    char name[WORD_MAX + 1], other_name[WORD_MAX + 1];
+    const char *operand = usage->operands + (usage->operands[0] == '[');
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(operand, " ]"), operand);
+    for (int i = 0; i < count; i++) file_note_read(operands[i], name);
+    for (const struct option_spec *input = usage->options; input->words; input++) {
+        split_words(input, name);
+        if (input->kind == OPTION_INPUT && *(const char **)input->target)
+            file_note_read(*(const char **)input->target, name);
     }
-    for (int i = 0; i < usage->option_count; i++) {
-        const struct option_spec *one = &usage->options[i];
+    for (const struct option_spec *one = usage->options; one->words; one++) {
         const char *path = one->kind == OPTION_OUTPUT ? *(const char **)one->target : NULL;
         struct error error;
-        if (path && !file_check_unread(path, &error)) return options_wrong(usage, "%s: %s", one->name, error.text);
-        for (int k = 0; path && k < i; k++) {
-            const struct option_spec *other = &usage->options[k];
+        split_words(one, name);
+        if (path && !file_check_unread(path, &error)) return options_wrong(usage, "%s: %s", name, error.text);
+        for (const struct option_spec *other = usage->options; path && other < one; other++) {
             const char *taken = other->kind == OPTION_OUTPUT ? *(const char **)other->target : NULL;
+            split_words(other, other_name);
             if (taken && file_same(path, taken))
-                return options_wrong(usage, "%s and %s: expected two files, got %s for both", other->name, one->name,
-                                     path);
+                return options_wrong(usage, "%s and %s: expected two files, got %s for both", other_name, name, path);
         }
     }
     return OPTIONS_RUN;

@@ -14,7 +14,7 @@ enum option_kind {
     OPTION_INT,
     OPTION_REAL,
     OPTION_SIZE, ///< int[2] from "1280x720", each in [minimum, maximum]
-    OPTION_WORD, ///< int: index of one of the words in `argument`, "dark|light", from 1
+    OPTION_WORD, ///< int: index of the given word among "dark|light", from 1
 };
 
 enum { OPTION_LIST_MOST = 32 };
@@ -26,24 +26,23 @@ struct option_list {
 
 /// An option, `--name value` or `--name=value`. If it is not given, its target stays unchanged.
 struct option_spec {
-    const char *name;     ///< "--frames"
-    const char *alias;    ///< "-f", or NULL
-    const char *argument; ///< the value in help: "N", or the allowed words; NULL for a flag
-    const char *help;     ///< one line
+    const char *words; ///< as in help: "-o, --output FILE", "--theme dark|light", "--quiet"
+    const char *help;  ///< one line
     enum option_kind kind;
     void *target;
     double minimum, maximum;
 };
 
+enum { OPTIONS_MOST = 32 };
+
 /// A subcommand's command line.
 struct usage {
-    const char *command;  ///< "live"
-    const char *operands; ///< "scene.json", or "[scene.json]" if optional
-    const char *summary;  ///< one line
-    const struct option_spec *options;
-    int option_count;
-    int common_count; ///< --help lists this many, --help-all all; 0: both list all
-    int operand_maximum;
+    const char *command;               ///< "live"
+    const char *operands;              ///< "scene.json", or "[scene.json]" if optional
+    const char *summary;               ///< one line
+    const struct option_spec *options; ///< up to OPTIONS_MOST, and {0}
+    int common_count;                  ///< --help lists this many options, --help-all all; 0: both list all
+    int operand_maximum;               ///< 0: 1
 };
 
 // Options that several commands share; 0: not given.
@@ -51,30 +50,28 @@ struct usage {
 /// enum solver_choice.
 #define OPTION_SOLVER(solver)                                                                                        \
     {                                                                                                                \
-        "--solver", NULL, "chain|band",                                                                              \
-            "chain: fast, band: reference (default: band up to 4096 samples, 300 between knots)", OPTION_WORD,       \
-            solver, 0, 0                                                                                             \
+        "--solver chain|band", "chain: fast, band: reference (default: band up to 4096 samples, 300 between knots)", \
+            OPTION_WORD, solver, 0, 0                                                                                \
     }
 /// 1 + enum theme_kind.
 #define OPTION_THEME(theme, help)                                                                                    \
     {                                                                                                                \
-        "--theme", NULL, "dark|light", help, OPTION_WORD, theme, 0, 0                                                \
+        "--theme dark|light", help, OPTION_WORD, theme, 0, 0                                                         \
     }
 
 /// Whether to go on, or the exit status.
-enum options_result {
+enum {
     OPTIONS_RUN = -1,
     OPTIONS_HELP = 0, ///< --help or --help-all was printed
     OPTIONS_WRONG = 2 ///< an error was printed on stderr
 };
 
 /// Parses argv[1 …]; argv[0] is the subcommand's name. Options and operands may mix; after `--` all are operands. `operands` has room for
-/// usage->operand_maximum pointers, NULL if not given. Operands and paths to read are guarded from outputs (file_note_read()).
-enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands);
+/// the most of them, NULL where not given. Operands and paths to read are guarded from outputs (file_note_read()).
+int options_parse(const struct usage *usage, int argc, char **argv, const char **operands);
 
 /// Prints "wiggly COMMAND: text; see wiggly COMMAND --help" on stderr.
-enum options_result options_wrong(const struct usage *usage, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+int options_wrong(const struct usage *usage, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /// Prints the error unless `done`; returns the exit status.
 int options_end(bool done, const struct error *error);

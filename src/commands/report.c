@@ -3,49 +3,51 @@
 #include "base/error.h"
 #include "scene/pins.h"
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 
 static const double BELOW = 1e-4; ///< metres below a floor worth a report
 static const double MET = 1e-4;   ///< of the rig's size; chains are posed in floats
 
-void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_line *print,
-                       void *user)
+/// Standard output is a list of warnings; on standard error a line starts with the file's name.
+__attribute__((format(printf, 3, 4))) static void warn(FILE *out, const char *path, const char *format, ...)
 {
-    char sentence[160], solved[EVALUATION_SENTENCE];
+    char sentence[768];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    print_line(out, out == stdout ? "warning: %s: %s" : "%s: warning: %s", path, sentence);
+}
+
+void solution_warnings(const struct document *document, const struct evaluation *evaluation, const char *path,
+                       FILE *out)
+{
+    char solved[EVALUATION_SENTENCE];
     for (int s = 0; s < evaluation->count; s++) {
-        struct error warning; // fail() makes any name printable
-        if (!evaluation_sentence(evaluation, s, solved)) continue;
-        fail(&warning, ERROR_INPUT, "splines[%d]: \"%s\": %s", s, document->splines[s]->name, solved);
-        print(user, warning.text);
+        if (evaluation_sentence(evaluation, s, solved))
+            warn(out, path, "splines[%d]: \"%s\": %s", s, document->splines[s]->name, solved);
     }
     for (int r = 0; r < document->rig_count; r++) {
         for (int p = 0; p < document->rigs[r]->pin_count; p++) {
             const struct pin_left *left = evaluation_pin(evaluation, document, r, p);
             const double away = left ? hypot(hypot(left->way[0], left->way[1]), left->way[2]) : 0;
-            if (!left || (left->is_found && away <= MET * left->size)) continue;
-            if (left->is_found) {
-                snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: the point stays %.3g m from its place", r, p,
-                         away);
-            } else {
-                snprintf(sentence, sizeof sentence,
-                         "rigs[%d].pins[%d]: there is no such point, so the pin has no effect", r, p);
-            }
-            print(user, sentence);
+            if (left && !left->is_found)
+                warn(out, path, "rigs[%d].pins[%d]: there is no such point, so the pin has no effect", r, p);
+            else if (left && !(away <= MET * left->size))
+                warn(out, path, "rigs[%d].pins[%d]: the point stays %.3g m from its place", r, p, away);
         }
     }
     for (int r = 0; r < document->rig_count; r++) {
         const struct floor_left *left = evaluation_floor(evaluation, r);
         if (!rig_has_floor(document->rigs[r]) || !left || left->depth < BELOW) continue;
-        snprintf(sentence, sizeof sentence,
-                 "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", r,
-                 left->depth, document_frame(document, left->sample));
-        print(user, sentence);
+        warn(out, path,
+             "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", r,
+             left->depth, document_frame(document, left->sample));
     }
     for (int s = 0; s < document->spline_count; s++) {
-        if (!pins_move_spline(document, s) || !spline_is_limited(document->splines[s])) continue;
-        snprintf(sentence, sizeof sentence, "splines[%d].limits: ignored, because pins or a floor move this spline",
-                 s);
-        print(user, sentence);
+        if (pins_move_spline(document, s) && spline_is_limited(document->splines[s]))
+            warn(out, path, "splines[%d].limits: ignored, because pins or a floor move this spline", s);
     }
 }
 

@@ -4,13 +4,11 @@
 
 #include "rig/models.h"
 #include "scene/evaluate.h"
+#include <stdio.h>
 
-/// Receives a printable sentence.
-typedef void report_line(void *user, const char *sentence);
-
-/// Reports splines that needed more than a plain solve, unmet pins and floors, and limits that those override.
-void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_line *print,
-                       void *user);
+/// Prints warnings: splines that needed more than a plain solve, unmet pins and floors, and limits that those override.
+void solution_warnings(const struct document *document, const struct evaluation *evaluation, const char *path,
+                       FILE *out);
 
 /// Prints a glTF character's clips, bones and nodes as a tree, possible chains, and what is not shown.
 void contents_print(const struct imported *imported);

@@ -33,85 +33,50 @@ static const char *split_chain(const struct gltf *gltf, char *text)
     return last ? last + 1 : NULL;
 }
 
-/// Writes a scene or an animated character, and says what it plays.
-static bool write_output(const struct job *job, struct opened *opened, struct error *error)
-{
-    const bool as_scene = path_has_end(job->output, ".json");
-    struct export_report report;
-    if (as_scene) {
-        if (!scene_save(opened->document, job->output, error)) return false;
-    } else {
-        const struct export_options options = {.all_clips = job->all_clips};
-        opened_solve(opened, SOLVER_BY_LENGTH);
-        const struct posing posing = opened_posing(opened);
-        if (!export_write(&posing, job->output, &options, &report, error)) return false;
-        if (*report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
-    }
-
-    // "; clip Walk loops"; the name of a nameless one, "clip 2", says it already.
-    const struct model_rig *model = &opened->document->rigs[0]->model;
-    const struct gltf *gltf = &models_imported(opened->models, opened->document, 0)->gltf;
-    const int clip = gltf_find_clip(gltf, model->clip);
-    const char *before = clip < 0 ? "" : strncmp(model->clip, "clip ", 5) == 0 ? "; " : "; clip ";
-    const char *name = clip < 0 ? "" : model->clip;
-    const char *plays = clip < 0 ? "" : clip_play(model, &gltf->clips[clip]).loops ? " loops" : " plays once";
-    if (as_scene) {
-        print_line(stdout, "wrote %s: %d chain%s%s%s%s; wiggly %s shows it", job->output, job->chains.count,
-                   job->chains.count == 1 ? "" : "s", before, name, plays, job->output);
-    } else {
-        print_line(stdout, "wrote %s: %s%s%s%s", job->output, report.text, before, name, plays);
-    }
-    return true;
-}
-
 int command_rig(int argc, char **argv)
 {
     struct job job = {0};
     const struct option_spec options[] = {
-        {"--chain", "-c", "A:B", "make a chain of the bones from A to B, or to the tip below A; can be repeated",
+        {"-c, --chain A:B", "make a chain of the bones from A to B, or to the tip below A; can be repeated",
          OPTION_LIST, &job.chains, 0, 0},
-        {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)",
-         OPTION_OUTPUT, &job.output, 0, 0},
-        {"--clip", NULL, "NAME", "clip to play (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
-        {"--loop", NULL, NULL, "let that clip begin again after its end (default: as its keys say)", OPTION_FLAG,
-         &job.loop, 0, 0},
-        {"--once", NULL, NULL, "let that clip play once and stay at its end", OPTION_FLAG, &job.once, 0, 0},
-        {"--all-clips", NULL, NULL, "put the chains on every clip of the file (.glb, .gltf)", OPTION_FLAG,
-         &job.all_clips, 0, 0},
-        {"--frequency", NULL, "HZ", "swings per second (default: by the chain's length)", OPTION_REAL,
-         &job.wish.frequency, 1e-3, 1e3},
-        {"--damping", NULL, "RATIO", "damping ratio: 0 swings forever, 1 is critical (default: 0.12)", OPTION_REAL,
+        {"-o, --output FILE", "scene to write (.json), or the character with its motion (.glb, …)", OPTION_OUTPUT,
+         &job.output, 0, 0},
+        {"--clip NAME", "clip to play (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
+        {"--loop", "let that clip begin again after its end (default: as its keys say)", OPTION_FLAG, &job.loop, 0,
+         0},
+        {"--once", "let that clip play once and stay at its end", OPTION_FLAG, &job.once, 0, 0},
+        {"--all-clips", "put the chains on every clip of the file (.glb, .gltf)", OPTION_FLAG, &job.all_clips, 0, 0},
+        {"--frequency HZ", "swings per second (default: by the chain's length)", OPTION_REAL, &job.wish.frequency,
+         1e-3, 1e3},
+        {"--damping RATIO", "damping ratio: 0 swings forever, 1 is critical (default: 0.12)", OPTION_REAL,
          &job.wish.damping, 1e-6, 1},
-        {"--lag", NULL, "DEGREES", "how far each bone lags behind the one before", OPTION_REAL, &job.wish.lag, 1e-6,
-         360},
-        {"--own-splines", NULL, NULL,
-         "give every chain its own splines (default: left and right share them, mirrored)", OPTION_FLAG,
-         &job.wish.own, 0, 0},
-        {"--plain", NULL, NULL, "do not follow the clip: only knots move the chains", OPTION_FLAG, &job.plain, 0, 0},
+        {"--lag DEGREES", "how far each bone lags behind the one before", OPTION_REAL, &job.wish.lag, 1e-6, 360},
+        {"--own-splines", "give every chain its own splines (default: left and right share them, mirrored)",
+         OPTION_FLAG, &job.wish.own, 0, 0},
+        {"--plain", "do not follow the clip: only knots move the chains", OPTION_FLAG, &job.plain, 0, 0},
+        {0},
     };
     const struct usage usage = {
         .command = "rig",
         .operands = "character.glb",
         .summary = "Gives a character's tail, ears or hair follow-through. Without -o, lists its clips and bones.",
         .options = options,
-        .option_count = sizeof options / sizeof *options,
-        .operand_maximum = 1,
     };
-    enum options_result result = options_parse(&usage, argc, argv, &job.character);
-    if (result != OPTIONS_RUN) return (int)result;
+    const int result = options_parse(&usage, argc, argv, &job.character);
+    if (result != OPTIONS_RUN) return result;
 
     const bool as_scene = job.output && path_has_end(job.output, ".json");
     const struct export_format *format = job.output ? export_format(job.output) : NULL;
     if (!import_suits(job.character))
-        return (int)options_wrong(&usage, "expected a character ending in .glb or .gltf, got '%s'", job.character);
+        return options_wrong(&usage, "expected a character ending in .glb or .gltf, got '%s'", job.character);
     if (job.chains.count > 0 && !job.output)
-        return (int)options_wrong(&usage, "-o FILE is missing: name the file to write");
+        return options_wrong(&usage, "-o FILE is missing: name the file to write");
     if (job.output && !as_scene && (!format || format->film))
-        return (int)options_wrong(&usage, "--output: expected a scene (.json) or a character (.glb), got '%s'",
-                                  job.output);
+        return options_wrong(&usage, "--output: expected a scene (.json) or a character (.glb), got '%s'",
+                             job.output);
     if (job.all_clips && (!job.output || as_scene))
-        return (int)options_wrong(&usage, "--all-clips: expected a character to write (-o FILE.glb)");
-    if (job.loop && job.once) return (int)options_wrong(&usage, "expected one of --loop and --once, got both");
+        return options_wrong(&usage, "--all-clips: expected a character to write (-o FILE.glb)");
+    if (job.loop && job.once) return options_wrong(&usage, "expected one of --loop and --once, got both");
 
     struct opened opened;
     struct error error;
@@ -136,7 +101,34 @@ int command_rig(int argc, char **argv)
             done = chain_make(opened.document, opened.models, &job.wish, &rig, &error);
             free(from);
         }
-        done = done && models_update(opened.models, opened.document, &error) && write_output(&job, &opened, &error);
+        struct export_report report;
+        done = done && models_update(opened.models, opened.document, &error);
+        if (done && as_scene) {
+            done = scene_save(opened.document, job.output, &error);
+        } else if (done) {
+            const struct export_options to = {.all_clips = job.all_clips};
+            opened_solve(&opened, SOLVER_BY_LENGTH);
+            const struct posing posing = opened_posing(&opened);
+            done = export_write(&posing, job.output, &to, &report, &error);
+            if (done && *report.note) print_line(stderr, "%s: warning: %s", job.output, report.note);
+        }
+        if (done) {
+            // "; clip Walk loops"; the name of a nameless one, "clip 2", says it already.
+            const struct model_rig *model = &opened.document->rigs[0]->model;
+            gltf = &models_imported(opened.models, opened.document, 0)->gltf; // models_update() may have moved it
+            const int number = gltf_find_clip(gltf, model->clip);
+            const char *before = number < 0 ? "" : strncmp(model->clip, "clip ", 5) == 0 ? "; " : "; clip ";
+            const char *name = number < 0 ? "" : model->clip;
+            const char *plays = number < 0                                     ? ""
+                                : clip_play(model, &gltf->clips[number]).loops ? " loops"
+                                                                               : " plays once";
+            if (as_scene) {
+                print_line(stdout, "wrote %s: %d chain%s%s%s%s; wiggly %s shows it", job.output, job.chains.count,
+                           job.chains.count == 1 ? "" : "s", before, name, plays, job.output);
+            } else {
+                print_line(stdout, "wrote %s: %s%s%s%s", job.output, report.text, before, name, plays);
+            }
+        }
     }
     opened_free(&opened);
     return options_end(done, &error);

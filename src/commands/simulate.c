@@ -19,30 +19,24 @@
 static const double slow_warning = 1 / 8.0; ///< of the frequency asked for: a lowest mode below it causes a warning
 static const double drive_ratio = 1.375;    ///< of drive and body by default: parts follow one after another
 
-struct shake_job {
-    const char *mesh, *output; ///< for messages; output path
-    struct shake shake;
-    struct loads loads;
-    double seconds, fps;
-    double accuracy; ///< allowed relative RMS error
-    double budget;   ///< element-steps
-    int substeps;    ///< per frame; 0: by accuracy
-    bool world;      ///< positions in the world, not relative to the base
-    bool verbose;
-};
-
 struct job {
     const char *mesh, *output;
     struct mesh_options opening;
     char rest[COMPANION_PATH]; ///< path of the rest mesh beside the output
     const char *shake_text, *drive_text, *pin_text, *soft_text;
-    double amplitude, damping, seconds; ///< NAN: by default
-    double budget;                      ///< millions of element-steps
-    struct shake_job shake;
+    double amplitude, damping; ///< NAN: by default
+    double seconds;            ///< NAN until make_body() chooses it
+    double fps;
+    double accuracy; ///< allowed relative RMS error
+    double budget;   ///< millions of element-steps
+    int substeps;    ///< per frame; 0: by accuracy
+    struct shake shake;
+    struct loads loads;
     struct base_drive drive;
     struct soft_options soft;
     double floor; ///< height above the lowest point; below 0: none
-    bool modal;
+    bool world;   ///< positions in the world, not relative to the base
+    bool modal, verbose;
 };
 
 // --- a shake, simulated to a requested accuracy
@@ -54,7 +48,7 @@ struct job {
 // simulations always run.
 
 /// How many frames are written.
-static int shake_frames(const struct shake_job *job) { return (int)fmax(1, round(job->seconds * job->fps)); }
+static int shake_frames(const struct job *job) { return (int)fmax(1, round(job->seconds * job->fps)); }
 
 /// The motion of the nodes, and how it was computed.
 struct record {
@@ -65,7 +59,7 @@ struct record {
 };
 
 /// Simulates the whole motion once.
-static bool simulate_once(const struct shake_job *job, struct soft *soft, struct record *record, struct error *error)
+static bool simulate_once(const struct job *job, struct soft *soft, struct record *record, struct error *error)
 {
     struct integrator integrator;
     integrator_create(&integrator, &soft->body, 1 / (job->fps * record->substeps));
@@ -118,8 +112,8 @@ static double estimate_error(const struct record *fine, const struct record *coa
 }
 
 /// Simulates until the error is small enough or the budget is used up. `fine` ends as the motion; `error_left` is −1 if unknown.
-static bool simulate_to_accuracy(const struct shake_job *job, struct soft *soft, struct record *fine,
-                                 struct record *coarse, double *error_left, struct error *error)
+static bool simulate_to_accuracy(const struct job *job, struct soft *soft, struct record *fine, struct record *coarse,
+                                 double *error_left, struct error *error)
 {
     enum { FINEST = 512, STEPS_A_PERIOD = 48 };
     static const double LEAST = 1.5; // steps shorter by less tell too little
@@ -134,7 +128,7 @@ static bool simulate_to_accuracy(const struct shake_job *job, struct soft *soft,
     for (double next = 2; !job->substeps && (*error_left < 0 || *error_left > job->accuracy);) {
         used += fine->cost;
         // Shorter steps need fewer iterations each, so the cost grows at most in proportion.
-        if (*error_left >= 0) next = fmin(next, (job->budget - used) / fine->cost);
+        if (*error_left >= 0) next = fmin(next, (1e6 * job->budget - used) / fine->cost);
         int finer = (int)ceil(fine->substeps * next);
         if (*error_left >= 0 && (finer > FINEST || next < LEAST)) return true;
         struct record swap = *coarse;
@@ -150,7 +144,7 @@ static bool simulate_to_accuracy(const struct shake_job *job, struct soft *soft,
 }
 
 /// Simulates, writes the motion and prints the cost. Of `soft` it changes only the body's scratch memory.
-static bool simulate_shake(const struct shake_job *job, struct soft *soft, const struct surface *surface,
+static bool simulate_shake(const struct job *job, struct soft *soft, const struct surface *surface,
                            struct error *error)
 {
     const int frames = shake_frames(job), nodes = soft->body.node_count, vertices = soft->lattice.vertex_count;
@@ -216,12 +210,12 @@ static bool simulate_shake(const struct shake_job *job, struct soft *soft, const
 /// Drives the base, or lets the body swing freely; each has defaults of its own.
 static void set_swing(struct job *job, enum drive_kind kind)
 {
-    struct shake *shake = &job->shake.shake;
+    const bool driven = kind != DRIVE_NONE;
     job->drive.kind = kind;
-    shake->driven = kind != DRIVE_NONE;
-    shake->amplitude = isfinite(job->amplitude) ? job->amplitude : shake->driven ? 0.05 : 0.2;
-    job->soft.damping = isfinite(job->damping) ? job->damping : shake->driven ? 0.2 : 0.03;
-    job->soft.softness.from = job->soft_text ? job->soft_text : shake->driven ? "distance" : NULL;
+    job->shake.driven = driven;
+    job->shake.amplitude = isfinite(job->amplitude) ? job->amplitude : driven ? 0.05 : 0.2;
+    job->soft.damping = isfinite(job->damping) ? job->damping : driven ? 0.2 : 0.03;
+    job->soft.softness.from = job->soft_text ? job->soft_text : driven ? "distance" : NULL;
 }
 
 /// Makes the body, tuned to what moves it. Where time is too short, the burst that nobody asked for gives way to a free swing.
@@ -232,28 +226,29 @@ static bool make_body(struct job *job, struct soft *soft, const struct surface *
     // By default 4 s or more, 8 periods, and 4 after the drive, but no longer than analyze takes. A burst ends in time for analyze a
     // period before the end.
     struct base_drive *drive = &job->drive;
-    struct shake_job *shake = &job->shake;
     const double period = 1 / soft_frequency(soft);
     if (drive->frequency == 0) drive->frequency = drive_ratio / period;
     const double end = drive_end(drive), stops = isfinite(end) ? end : 0;
-    shake->seconds = isfinite(job->seconds)
-                         ? job->seconds
-                         : fmin(fmax(fmax(4, 8 * period), stops + 4 * period), ANALYSIS_FRAMES_MAX / shake->fps);
-    const bool fits = stops + fmax(period, ANALYSIS_FRAMES_MIN / shake->fps) <= shake->seconds;
-    if (fits || job->drive.kind == DRIVE_NONE) return true;
-    if (job->drive_text) {
-        if (isfinite(end) && period <= job->shake.seconds)
-            print_line(stderr,
-                       "%s: warning: a drive of %.4g s and a period of %.4g s do not fit into %.4g s, so analyze may "
-                       "take the drive for the body's swing; choose a longer time",
-                       job->mesh, end, period, job->shake.seconds);
-        return true;
+    const double seconds = isfinite(job->seconds)
+                               ? job->seconds
+                               : fmin(fmax(fmax(4, 8 * period), stops + 4 * period), ANALYSIS_FRAMES_MAX / job->fps);
+    const bool fits = stops + fmax(period, ANALYSIS_FRAMES_MIN / job->fps) <= seconds;
+    if (!fits && drive->kind != DRIVE_NONE && !job->drive_text) {
+        print_line(stdout,
+                   "%s: swings freely, because a burst of %.4g s and a period of %.4g s do not fit into %.4g s",
+                   job->mesh, end, period, seconds);
+        soft_free(soft);
+        set_swing(job, DRIVE_NONE);
+        return make_body(job, soft, surface, error);
     }
-    print_line(stdout, "%s: swings freely, because a burst of %.4g s and a period of %.4g s do not fit into %.4g s",
-               job->mesh, end, period, job->shake.seconds);
-    soft_free(soft);
-    set_swing(job, DRIVE_NONE);
-    return make_body(job, soft, surface, error);
+    if (!fits && drive->kind != DRIVE_NONE && isfinite(end) && period <= seconds)
+        print_line(
+            stderr,
+            "%s: warning: a drive of %.4g s and a period of %.4g s do not fit into %.4g s, so analyze may take "
+            "the drive for the body's swing; choose a longer time",
+            job->mesh, end, period, seconds);
+    job->seconds = seconds;
+    return true;
 }
 
 /// Writes each mode's displacement, scaled to a maximum of 1.
@@ -290,7 +285,7 @@ static bool simulate_mesh(struct job *job, struct error *error)
     struct surface surface = {0};
     struct soft soft;
     progress_end_when_interrupted();
-    progress_show_stages(job->shake.verbose);
+    progress_show_stages(job->verbose);
     if (job->drive.kind == DRIVE_TRACK && !drive_read_track(&job->drive, job->drive_text, error)) return false;
     bool good = file_check_unread(job->rest, error) && open_mesh(job->mesh, &job->opening, &surface, error) &&
                 make_body(job, &soft, &surface, error);
@@ -302,18 +297,18 @@ static bool simulate_mesh(struct job *job, struct error *error)
         if (!job->modal) {
             printf("  seen most: mode %d, %.4g Hz, with %.0f %% of the motion\n", soft.seen + 1,
                    soft_frequency(&soft), 100 * soft.share);
-            if (!job->drive_text && (job->shake.shake.impulse || soft.pinned == 0))
-                printf("  swings freely, because of %s\n", job->shake.shake.impulse ? "--impulse" : "--pin none");
+            if (!job->drive_text && (job->shake.impulse || soft.pinned == 0))
+                printf("  swings freely, because of %s\n", job->shake.impulse ? "--impulse" : "--pin none");
         }
         if (soft.lattice.repair[0]) print_line(stdout, "%s: %s", job->mesh, soft.lattice.repair);
         fflush(stdout);
         const double lowest = soft.modes.count ? soft.modes.frequency[0] : 0, period = 1 / soft_frequency(&soft);
-        if (!job->modal && period > job->shake.seconds) {
+        if (!job->modal && period > job->seconds) {
             print_line(
                 stderr,
                 "%s: warning: %.4g s show less than a period, %.4g s, so analyze cannot find the frequency; choose a "
                 "longer time, of at most %d frames, or a stiffer body",
-                job->mesh, job->shake.seconds, period, ANALYSIS_FRAMES_MAX);
+                job->mesh, job->seconds, period, ANALYSIS_FRAMES_MAX);
         }
         if (!job->modal && lowest < slow_warning * soft_frequency(&soft)) {
             print_line(stderr,
@@ -329,30 +324,28 @@ static bool simulate_mesh(struct job *job, struct error *error)
         if (job->modal) {
             good = write_modes(job, &soft, error);
         } else {
-            struct shake_job *shake = &job->shake;
             struct base_drive *drive = &job->drive;
             struct floor floor = {0};
             if (drive->kind != DRIVE_NONE) { // it moves the base along the shake
-                memcpy(drive->direction, shake->shake.direction, sizeof drive->direction);
-                drive->size = drive->kind == DRIVE_TRACK ? 1 : shake->shake.amplitude * soft.size;
-                drive->seconds = shake->seconds;
-                shake->loads.drive = drive;
+                memcpy(drive->direction, job->shake.direction, sizeof drive->direction);
+                drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.amplitude * soft.size;
+                drive->seconds = job->seconds;
+                job->loads.drive = drive;
             }
             if (job->floor >= 0) {
                 floor_create(&floor, &soft.lattice, &surface, soft.bottom + job->floor, soft.young,
                              job->soft.density);
-                shake->loads.floor = &floor;
+                job->loads.floor = &floor;
             }
-            good = simulate_shake(shake, &soft, &surface, error);
+            good = simulate_shake(job, &soft, &surface, error);
             floor_free(&floor);
 
             // What analyze needs to know of the motion.
-            struct companion made = {
-                .frames = shake_frames(shake), .vertices = surface.vertex_count, .fps = shake->fps};
-            const double end = shake->loads.drive ? drive_end(drive) : 0;
-            made.from = end < shake->seconds ? end : 0;
-            made.world = shake->world;
-            memcpy(made.shake, shake->shake.direction, sizeof made.shake);
+            struct companion made = {.frames = shake_frames(job), .vertices = surface.vertex_count, .fps = job->fps};
+            const double end = job->loads.drive ? drive_end(drive) : 0;
+            made.from = end < job->seconds ? end : 0;
+            made.world = job->world;
+            memcpy(made.shake, job->shake.direction, sizeof made.shake);
             if (job->pin_text)
                 snprintf(made.pin, sizeof made.pin, "%s", job->pin_text);
             else
@@ -377,18 +370,15 @@ static const char *check_job(struct job *job)
     if (!path_has_end(job->output, ".npy") && !path_has_end(job->output, ".pc2"))
         return "--output: expected a name ending in .npy or .pc2";
     if (!companion_path(job->output, ".rest.obj", job->rest)) return "--output: the name is too long";
-    if (!options_direction(job->shake_text, job->shake.shake.direction))
+    if (!options_direction(job->shake_text, job->shake.direction))
         return "--shake: expected up, side, front or a vector x,y,z";
     if (job->pin_text && !region_parse(job->pin_text, &job->soft.pin)) return "--pin: expected " REGION_FORMS;
     if (job->pin_text && strlen(job->pin_text) >= COMPANION_PIN) return "--pin: expected fewer than 128 characters";
-    job->shake.mesh = job->mesh;
-    job->shake.output = job->output;
-    job->shake.budget = 1e6 * job->budget;
     set_swing(job, DRIVE_NONE);
     if (!job->modal) {                                                         // an unknown name of a drive is a file
         static const char *const kinds[] = {"none", "sine", "burst", "sweep"}; // as in enum drive_kind
-        const bool impulse = job->shake.shake.impulse, unpinned = job->soft.pin.kind == REGION_NONE;
-        const bool adjusted = job->drive.frequency > 0 || job->shake.world;
+        const bool impulse = job->shake.impulse, unpinned = job->soft.pin.kind == REGION_NONE;
+        const bool adjusted = job->drive.frequency > 0 || job->world;
         enum drive_kind kind = DRIVE_NONE;
         if (!job->drive_text && adjusted) job->drive_text = "burst";
         const char *text = job->drive_text ? job->drive_text : impulse || unpinned ? "none" : "burst";
@@ -423,7 +413,8 @@ static const struct job start = {.opening = {.scale = 1},
                                  .amplitude = NAN,
                                  .damping = NAN,
                                  .seconds = NAN,
-                                 .shake = {.fps = 24, .accuracy = 0.02},
+                                 .fps = 24,
+                                 .accuracy = 0.02,
                                  .budget = 20,
                                  .shake_text = "up",
                                  .floor = -1};
@@ -431,64 +422,57 @@ static const struct job start = {.opening = {.scale = 1},
 int command_simulate(int argc, char **argv)
 {
     struct job job = start;
-    struct shake_job *shake = &job.shake;
     int modes = 0;
     job.soft = soft_default_options();
     job.soft.frequency = job.soft.density = 0;
     const struct option_spec options[] = {
-        {"--output", "-o", "FILE",
+        {"-o, --output FILE",
          "required: NAME.npy or NAME.pc2 (--modal: .npy); beside it NAME.rest.obj, NAME.simulation.json",
          OPTION_OUTPUT, &job.output, 0, 0},
         MESH_OPTIONS(&job.opening),
-        {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (up)", OPTION_TEXT, &job.shake_text, 0, 0},
-        {"--amplitude", NULL, "A",
+        {"--shake DIR", "up, side, front or a vector x,y,z (up)", OPTION_TEXT, &job.shake_text, 0, 0},
+        {"--amplitude A",
          "how far the base moves, relative to the height (0.05); swinging freely, how far the top moves (0.2)",
          OPTION_REAL, &job.amplitude, -2, 2},
-        {"--impulse", NULL, NULL, "swing freely from a push, not deformed", OPTION_FLAG, &shake->shake.impulse, 0, 0},
-        {"--drive", NULL, "WHAT",
-         "what shakes the pinned base: burst (default), sine, sweep, a track of seconds,metres in FILE.csv, or none: "
-         "swing freely",
+        {"--impulse", "swing freely from a push, not deformed", OPTION_FLAG, &job.shake.impulse, 0, 0},
+        {"--drive WHAT",
+         "what shakes the pinned base: burst (default), sine, sweep, a track of seconds,metres in FILE.csv, or "
+         "none: swing freely",
          OPTION_TEXT, &job.drive_text, 0, 0},
-        {"--drive-frequency", NULL, "HZ", "frequency of burst, sine or mid-sweep (1.375 times that of the body)",
-         OPTION_REAL, &job.drive.frequency, 1e-3, 1e3},
-        {"--world", NULL, NULL, "write the motion as seen from outside, not from the base", OPTION_FLAG,
-         &shake->world, 0, 0},
-        {"--seconds", NULL, "S", "duration in seconds (4, or 8 periods of the body)", OPTION_REAL, &job.seconds, 1e-3,
-         3600},
-        {"--fps", NULL, "N", "frames per second (24)", OPTION_REAL, &shake->fps, 1, 1000},
-        {"--accuracy", NULL, "E", "allowed error, relative to the size of the motion; sets the steps (0.02)",
-         OPTION_REAL, &shake->accuracy, 1e-4, 1},
-        {"--budget", NULL, "M", "end the search for those steps after M million element-steps (20)", OPTION_REAL,
-         &job.budget, 0, 1e6},
-        {"--substeps", NULL, "N", "integrator steps per frame, instead of --accuracy", OPTION_INT, &shake->substeps,
-         1, 1000},
-        {"--tets", NULL, "N", "approximate number of tetrahedra (3000)", OPTION_INT, &job.soft.tets, 50, 200000},
-        {"--thickness", NULL, "H", "make the mesh a sheet H metres thick; 0: close its openings, however large",
-         OPTION_REAL, &job.soft.thickness, 0, 1e6},
-        {"--pin", NULL, "WHERE",
+        {"--drive-frequency HZ", "frequency of burst, sine or mid-sweep (1.375 times that of the body)", OPTION_REAL,
+         &job.drive.frequency, 1e-3, 1e3},
+        {"--world", "write the motion as seen from outside, not from the base", OPTION_FLAG, &job.world, 0, 0},
+        {"--seconds S", "duration in seconds (4, or 8 periods of the body)", OPTION_REAL, &job.seconds, 1e-3, 3600},
+        {"--fps N", "frames per second (24)", OPTION_REAL, &job.fps, 1, 1000},
+        {"--accuracy E", "allowed error, relative to the size of the motion; sets the steps (0.02)", OPTION_REAL,
+         &job.accuracy, 1e-4, 1},
+        {"--budget M", "end the search for those steps after M million element-steps (20)", OPTION_REAL, &job.budget,
+         0, 1e6},
+        {"--substeps N", "integrator steps per frame, instead of --accuracy", OPTION_INT, &job.substeps, 1, 1000},
+        {"--tets N", "approximate number of tetrahedra (3000)", OPTION_INT, &job.soft.tets, 50, 200000},
+        {"--thickness H", "make the mesh a sheet H metres thick; 0: close its openings, however large", OPTION_REAL,
+         &job.soft.thickness, 0, 1e6},
+        {"--pin WHERE",
          "pin below a height (1/20 of the mesh), none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r, color:RRGGBB",
          OPTION_TEXT, &job.pin_text, 0, 0},
-        {"--frequency", NULL, "HZ", "frequency of the mode seen most (--modal: the lowest); sets the stiffness (2)",
+        {"--frequency HZ", "frequency of the mode seen most (--modal: the lowest); sets the stiffness (2)",
          OPTION_REAL, &job.soft.frequency, 1e-3, 1e3},
-        {"--young", NULL, "E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
-         1e15},
-        {"--soft", NULL, "MAP",
-         "soften by distance (from the pin, the default with a drive), color (brightness) or FILE.npy (0 to 1 per "
-         "vertex)",
+        {"--young E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &job.soft.young, 1e-6, 1e15},
+        {"--soft MAP",
+         "soften by distance (from the pin, the default with a drive), color (brightness) or FILE.npy (0 to 1 "
+         "per vertex)",
          OPTION_TEXT, &job.soft_text, 0, 0},
-        {"--softness", NULL, "N", "how many times softer where the map is 1 (8)", OPTION_REAL,
-         &job.soft.softness.times, 1e-3, 1e3},
-        {"--poisson", NULL, "NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
-        {"--density", NULL, "RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &job.soft.density,
-         1e-6, 1e9},
-        {"--damping", NULL, "Z", "damping ratio of that mode (0.2; swinging freely 0.03)", OPTION_REAL, &job.damping,
-         0, 1},
-        {"--gravity", NULL, "G", "gravity in m/s^2 (0); a pinned body starts at rest under it", OPTION_REAL,
-         &shake->loads.gravity, 0, 1e4},
-        {"--floor", NULL, "H", "a smooth floor at H above the lowest point", OPTION_REAL, &job.floor, 0, 1e6},
-        {"--modal", NULL, "K", "write the K lowest normal modes instead of a shake", OPTION_INT, &modes, 1, 200},
-        {"--verbose", NULL, NULL, "show progress even if standard error is not a terminal", OPTION_FLAG,
-         &shake->verbose, 0, 0},
+        {"--softness N", "how many times softer where the map is 1 (8)", OPTION_REAL, &job.soft.softness.times, 1e-3,
+         1e3},
+        {"--poisson NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
+        {"--density RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &job.soft.density, 1e-6, 1e9},
+        {"--damping Z", "damping ratio of that mode (0.2; swinging freely 0.03)", OPTION_REAL, &job.damping, 0, 1},
+        {"--gravity G", "gravity in m/s^2 (0); a pinned body starts at rest under it", OPTION_REAL,
+         &job.loads.gravity, 0, 1e4},
+        {"--floor H", "a smooth floor at H above the lowest point", OPTION_REAL, &job.floor, 0, 1e6},
+        {"--modal K", "write the K lowest normal modes instead of a shake", OPTION_INT, &modes, 1, 200},
+        {"--verbose", "show progress even if standard error is not a terminal", OPTION_FLAG, &job.verbose, 0, 0},
+        {0},
     };
     const struct usage usage = {
         .command = "simulate",
@@ -496,16 +480,14 @@ int command_simulate(int argc, char **argv)
         .summary = "Shakes a mesh (OBJ, STL, PLY, OFF, glTF) as a soft body (finite elements) and writes its "
                    "vertices in every frame.",
         .options = options,
-        .option_count = sizeof options / sizeof *options,
-        .operand_maximum = 1,
     };
-    enum options_result result = options_parse(&usage, argc, argv, &job.mesh);
-    if (result != OPTIONS_RUN) return (int)result;
+    const int result = options_parse(&usage, argc, argv, &job.mesh);
+    if (result != OPTIONS_RUN) return result;
     job.modal = modes > 0;
     job.soft.modes = job.modal ? modes : MODES_SEARCHED;
-    if (!job.modal) job.soft.shake = &shake->shake;
+    if (!job.modal) job.soft.shake = &job.shake;
     const char *wrong = check_job(&job);
-    if (wrong) return (int)options_wrong(&usage, "%s", wrong);
+    if (wrong) return options_wrong(&usage, "%s", wrong);
     struct error error;
     return options_end(simulate_mesh(&job, &error), &error);
 }

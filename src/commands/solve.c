@@ -32,36 +32,29 @@ static void write_csv(FILE *out, const struct document *document, const struct e
     }
 }
 
-static void warn_on_stderr(void *user, const char *sentence)
-{
-    const char *const *scene = user;
-    print_line(stderr, "%s: warning: %s", *scene, sentence);
-}
-
 int command_solve(int argc, char **argv)
 {
     const char *scene, *out = NULL;
     enum solver_choice solver = SOLVER_BY_LENGTH;
     const struct option_spec options[] = {
-        {"--output", "-o", "FILE", "file to write (default: standard output)", OPTION_OUTPUT, &out, 0, 0},
+        {"-o, --output FILE", "file to write (default: standard output)", OPTION_OUTPUT, &out, 0, 0},
         OPTION_SOLVER(&solver),
+        {0},
     };
     const struct usage usage = {
         .command = "solve",
         .operands = "scene.json",
         .summary = "Solves every spline of a scene and writes every sample as CSV: total, Re x, Im x.",
         .options = options,
-        .option_count = sizeof options / sizeof *options,
-        .operand_maximum = 1,
     };
-    enum options_result result = options_parse(&usage, argc, argv, &scene);
-    if (result != OPTIONS_RUN) return (int)result;
+    const int result = options_parse(&usage, argc, argv, &scene);
+    if (result != OPTIONS_RUN) return result;
 
     struct opened opened;
     struct error error;
     if (!opened_read_splines(&opened, scene, &error)) return options_end(false, &error);
     opened_solve(&opened, solver);
-    solution_warnings(opened.document, &opened.evaluation, warn_on_stderr, &scene);
+    solution_warnings(opened.document, &opened.evaluation, scene, stderr);
     struct file_output output;
     bool done = true;
     if (!out) {

@@ -12,12 +12,13 @@ static const char *operands[2];
 enum { SOLVER_CHAIN = 1, SOLVER_BAND };
 
 static const struct option_spec specs[] = {
-    {"--loud", NULL, NULL, "a flag", OPTION_FLAG, &loud, 0, 0},
-    {"--output", "-o", "FILE", "a text", OPTION_TEXT, &out, 0, 0},
-    {"--frames", NULL, "N", "a whole number", OPTION_INT, &frames, 1, 100},
-    {"--scale", NULL, "S", "a number", OPTION_REAL, &scale, 0.5, 4},
-    {"--size", NULL, "WxH", "a size", OPTION_SIZE, size, 16, 8192},
-    {"--solver", NULL, "chain|band", "a method", OPTION_WORD, &method, 0, 0},
+    {"--loud", "a flag", OPTION_FLAG, &loud, 0, 0},
+    {"-o, --output FILE", "a text", OPTION_TEXT, &out, 0, 0},
+    {"--frames N", "a whole number", OPTION_INT, &frames, 1, 100},
+    {"--scale S", "a number", OPTION_REAL, &scale, 0.5, 4},
+    {"--size WxH", "a size", OPTION_SIZE, size, 16, 8192},
+    {"--solver chain|band", "a method", OPTION_WORD, &method, 0, 0},
+    {0},
 };
 
 static const struct usage usage = {
@@ -25,14 +26,13 @@ static const struct usage usage = {
     .operands = "a [b]",
     .summary = "a command of the tests",
     .options = specs,
-    .option_count = sizeof specs / sizeof specs[0],
     .operand_maximum = 2,
 };
 
 enum { WORDS_MAX = 16 };
 
 /// Parses a command line written as one string, words apart by one space.
-static enum options_result parse(const char *line)
+static int parse(const char *line)
 {
     static char text[256];
     char *argv[WORDS_MAX + 1] = {"test"};
