@@ -215,44 +215,6 @@ void sidecars_discard(struct sidecars *sidecars)
     sidecars_free(sidecars);
 }
 
-// --- the file
-
-static bool write_file(struct export_range *range, struct export_report *report, struct error *error)
-{
-    struct sidecars *sidecars = &range->sidecars;
-    struct file_output output;
-    char size[32];
-    if (!file_check_place(range->path, error) || !file_output_open(&output, range->path, error)) return false;
-    if (!range->format->write(range, output.stream, error)) {
-        file_output_discard(&output);
-        sidecars_discard(sidecars);
-        return false;
-    }
-    const off_t bytes = ftello(output.stream);
-    const bool broken = fflush(output.stream) != 0 || ferror(output.stream);
-    if (!broken &&
-        !sidecars_commit(sidecars,
-                         error)) { // the files that this one names come first; a full disk is seen before that
-        file_output_discard(&output);
-        sidecars_discard(sidecars);
-        return false;
-    }
-    if (!file_output_commit(&output, error)) {
-        sidecars_discard(sidecars);
-        return false;
-    }
-    sidecars_free(sidecars);
-    if (bytes < 1000) {
-        snprintf(size, sizeof size, "%d bytes", (int)bytes);
-    } else if (bytes < 1000000) {
-        snprintf(size, sizeof size, "%.0f KB", (double)bytes / 1e3);
-    } else {
-        snprintf(size, sizeof size, "%.1f MB", (double)bytes / 1e6);
-    }
-    snprintf(report->text, sizeof report->text, "%s, %s", range->summary, size);
-    return true;
-}
-
 bool export_write(const struct posing *posing, const char *path, const struct export_options *options,
                   struct export_report *report, struct error *error)
 {
@@ -274,8 +236,31 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
     const char *file = posing->document->path ? path_name(posing->document->path) : "wiggly";
     const char *dot = strrchr(file, '.');
     range.title = name_from(file, dot ? (size_t)(dot - file) : strlen(file)); // the scene's own name
-    const bool done =
-        choose_rigs(&range, error) && range_choose_keys(&range, report, error) && write_file(&range, report, error);
+    struct file_output output;
+    struct sidecars *sidecars = &range.sidecars;
+    bool done = choose_rigs(&range, error) && range_choose_keys(&range, report, error) &&
+                file_check_place(path, error) && file_output_open(&output, path, error);
+    if (done) {
+        // The files that this one names come first; a full disk is seen before that.
+        done = range.format->write(&range, output.stream, error);
+        const double bytes = (double)ftello(output.stream);
+        const bool broken = fflush(output.stream) != 0 || ferror(output.stream);
+        done = done && (broken || sidecars_commit(sidecars, error));
+        if (!done) file_output_discard(&output);
+        done = done && file_output_commit(&output, error);
+        snprintf(report->text, sizeof report->text,
+                 bytes < 1e3   ? "%s, %.0f bytes"
+                 : bytes < 1e6 ? "%s, %.0f KB"
+                               : "%s, %.1f MB",
+                 range.summary,
+                 bytes < 1e3   ? bytes
+                 : bytes < 1e6 ? bytes / 1e3
+                               : bytes / 1e6);
+    }
+    if (done)
+        sidecars_free(sidecars);
+    else
+        sidecars_discard(sidecars);
     free(range.title);
     return done;
 }

@@ -34,18 +34,11 @@ static void tail_columns(const struct export_range *range, int rig, const struct
     }
 }
 
-/// The fox's mesh, scaled to its tail's length.
-struct scaled_fox {
-    float (*position)[3], (*normal)[3], (*color)[3];
-    uint32_t *indices;
-};
-
 static bool tail_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                       struct error *error)
 {
     const struct gltf *gltf = &pose->model.imported->gltf;
     (void)posing, (void)rig, (void)error;
-    struct scaled_fox *fox = form->owned = pool_take(&form->pool, 1, sizeof *fox);
     const struct gltf_mesh *mesh = gltf->meshes;
     const float *root = pose->model.root, scale = root[0];
     size_t vertices = 1, indices = 1;
@@ -53,21 +46,25 @@ static bool tail_open(const struct posing *posing, int rig, const struct rig_pos
         vertices += (size_t)mesh->parts[p].vertex_count;
         indices += (size_t)mesh->parts[p].index_count;
     }
-    form->position = (const float(*)[3])(fox->position = pool_take(&form->pool, vertices, sizeof *fox->position));
-    form->normal = (const float(*)[3])(fox->normal = pool_take(&form->pool, vertices, sizeof *fox->normal));
-    form->color = (const float(*)[3])(fox->color = pool_take(&form->pool, vertices, sizeof *fox->color));
-    form->indices = fox->indices = pool_take(&form->pool, indices, sizeof *fox->indices);
+    float(*position)[3] = pool_take(&form->pool, vertices, sizeof *position);
+    float(*normal)[3] = pool_take(&form->pool, vertices, sizeof *normal);
+    float(*color)[3] = pool_take(&form->pool, vertices, sizeof *color);
+    uint32_t *to = pool_take(&form->pool, indices, sizeof *to);
+    form->position = (const float(*)[3])position;
+    form->normal = (const float(*)[3])normal;
+    form->color = (const float(*)[3])color;
+    form->indices = to;
     form->slots = pool_take(&form->pool, vertices, sizeof *form->slots);
     form->weights = pool_take(&form->pool, vertices, sizeof *form->weights);
     for (int p = 0; p < mesh->part_count; p++) {
         const struct gltf_part *part = &mesh->parts[p];
         for (int i = 0; i < part->index_count; i++)
-            fox->indices[form->index_count++] = (uint32_t)form->vertex_count + part->indices[i];
+            to[form->index_count++] = (uint32_t)form->vertex_count + part->indices[i];
         for (int v = 0; v < part->vertex_count; v++) {
             const int at = form->vertex_count++;
-            for (int k = 0; k < 3; k++) fox->position[at][k] = scale * part->position[v][k];
-            memcpy(fox->normal[at], part->normal[v], sizeof fox->normal[at]);
-            memcpy(fox->color[at], part->color[v], sizeof fox->color[at]);
+            for (int k = 0; k < 3; k++) position[at][k] = scale * part->position[v][k];
+            memcpy(normal[at], part->normal[v], sizeof normal[at]);
+            memcpy(color[at], part->color[v], sizeof color[at]);
             for (int n = 0; n < FORM_INFLUENCES; n++) { // a vertex has at most four joints
                 form->weights[at][n] = part->weights[v][n];
                 form->slots[at][n] = part->weights[v][n] > 0.0f ? (uint16_t)(FOX_FIRST_LIMB + part->joints[v][n]) : 0;

@@ -145,37 +145,6 @@ static void add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path
     add_channel(motion, node, path, add_column_sampler(motion, path, keys, column, width));
 }
 
-/// Adds the channels of a rig whose mesh and first joint are these nodes.
-static void add_animation(struct scene *scene, const struct form *form, const struct keys *keys,
-                          const struct file_targets *targets, json_int_t mesh_node, json_int_t first_joint)
-{
-    if (keys->travels)
-        add_keys(&scene->motion, form->joint_count > 0 ? first_joint : mesh_node, GLTF_TRANSLATION, keys, 0, 3);
-    for (int j = 0; j < form->joint_count; j++) {
-        if (j >= form->first_bone || differs(keys, keys_rotation(j), 4, (const float[]){0, 0, 0, 1}))
-            add_keys(&scene->motion, first_joint + j, GLTF_ROTATION, keys, keys_rotation(j), 4);
-        if (differs(keys, keys_scale(keys, j), 3, (const float[]){1, 1, 1}))
-            add_keys(&scene->motion, first_joint + j, GLTF_SCALE, keys, keys_scale(keys, j), 3);
-    }
-    const int width = targets->count;
-    if (width == 0) return;
-    const size_t count = (size_t)width * (size_t)keys->count;
-    float *values = need(count, sizeof *values);
-    float *slopes = keys->slopes ? need_zeroed(count, sizeof *slopes) : NULL;
-    for (int i = 0; i < width * keys->count; i++) {
-        const struct file_target *target = &targets->list[i % width];
-        const int column = keys_weight(keys, target->source);
-        const float weight = *keys_at(keys, i / width, column) / target->scale;
-        values[i] = targets->clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
-        if (!slopes || (targets->clamped && weight <= 0)) continue;
-        slopes[i] = keys->slopes[(size_t)(i / width) * (size_t)keys->width + (size_t)column] / target->scale;
-    }
-    add_channel(&scene->motion, mesh_node, GLTF_WEIGHTS,
-                add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
-    free(values);
-    free(slopes);
-}
-
 static bool add_rig(struct scene *scene, int rig, struct error *error)
 {
     struct form form;
@@ -242,7 +211,32 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     } else {
         gltf_set(file, node, "translation", reals(file, keys.rows, 3));
     }
-    add_animation(scene, &form, &keys, &targets, mesh_node, first_joint);
+
+    // The channels that move it.
+    if (keys.travels)
+        add_keys(&scene->motion, form.joint_count > 0 ? first_joint : mesh_node, GLTF_TRANSLATION, &keys, 0, 3);
+    for (int j = 0; j < form.joint_count; j++) {
+        if (j >= form.first_bone || differs(&keys, keys_rotation(j), 4, (const float[]){0, 0, 0, 1}))
+            add_keys(&scene->motion, first_joint + j, GLTF_ROTATION, &keys, keys_rotation(j), 4);
+        if (differs(&keys, keys_scale(&keys, j), 3, (const float[]){1, 1, 1}))
+            add_keys(&scene->motion, first_joint + j, GLTF_SCALE, &keys, keys_scale(&keys, j), 3);
+    }
+    const int width = targets.count;
+    const size_t count = (size_t)width * (size_t)keys.count;
+    float *values = need(count, sizeof *values), *slopes = keys.slopes ? need_zeroed(count, sizeof *slopes) : NULL;
+    for (int i = 0; i < width * keys.count; i++) {
+        const struct file_target *target = &targets.list[i % width];
+        const int column = keys_weight(&keys, target->source);
+        const float weight = *keys_at(&keys, i / width, column) / target->scale;
+        values[i] = targets.clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
+        if (!slopes || (targets.clamped && weight <= 0)) continue;
+        slopes[i] = keys.slopes[(size_t)(i / width) * (size_t)keys.width + (size_t)column] / target->scale;
+    }
+    if (width > 0)
+        add_channel(&scene->motion, mesh_node, GLTF_WEIGHTS,
+                    add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
+    free(values);
+    free(slopes);
     scene->joints += form.joint_count - form.first_bone;
     scene->targets += targets.count;
     free(targets.list);
@@ -311,31 +305,6 @@ struct part {
     bool is_clip;    ///< the part is the clip in the file
 };
 
-/// The part that a range's keys cover. It is the clip itself where they begin and end within a frame of it; one that plays once, or is a single
-/// pose, may end before.
-static struct part part_of(const struct export_range *range, const struct model_rig *model,
-                           const struct gltf_clip *clip)
-{
-    const double fps = range->posing->document->fps;
-    const double from = range_frame(range, 0) / fps, to = range_frame(range, range->key_count - 1) / fps;
-    if (!clip) return (struct part){.from = from, .to = to, .shift = -from};
-    struct part part = {.play = clip_play(model, clip), .end = clip->last, .from = from, .to = to};
-    const double frame = fmax(1, range->spacing) / fps;
-    const bool ends = to > clip->last - frame && (!part.play.loops || to < clip->first + part.play.length + frame);
-    part.is_clip = !(part.play.length > 0) || (fabs(from - clip->first) < frame && ends);
-    if (part.is_clip && part.play.length > 0) {
-        part.from = clip->first;
-        part.to = part.play.loops || to < clip->last + frame ? clip->last : to;
-    }
-    part.shift = clip->first - part.from;
-    if (!part.play.loops || !(part.play.length > 0)) return part;
-    const double begin = floor((part.from - clip->first) / part.play.length + 1e-6),
-                 end = ceil((part.to - clip->first) / part.play.length - 1e-6) - 1;
-    part.rounds[0] = (int)fmin(fmax(begin, -1e9), 1e9);
-    part.rounds[1] = part.rounds[0] + (int)fmin(fmax(end - begin, 0), range->key_count); // no shorter than a key
-    return part;
-}
-
 // --- the times of the chains' keys
 
 struct key_time {
@@ -372,37 +341,6 @@ static bool is_bone(const struct form *form, json_int_t node)
 }
 
 // --- other channels, where the part is not the clip
-
-/// A sampler's numbers, as a channel without a node; false if they are none.
-static bool read_sampler(const struct glb *stored, const json_t *sampler, bool is_rotation,
-                         struct gltf_channel *channel, int *element)
-{
-    const char *interpolation = json_string_value(json_object_get(sampler, "interpolation"));
-    struct glb_numbers times = {0}, values = {0};
-    struct error error;
-    bool good = glb_numbers(stored, glb_integer(sampler, "input", -1), &times, &error) &&
-                glb_numbers(stored, glb_integer(sampler, "output", -1), &values, &error) && times.components == 1 &&
-                times.count > 0;
-    *channel =
-        (struct gltf_channel){.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
-    if (interpolation && strcmp(interpolation, "STEP") == 0) channel->interpolation = GLTF_STEP;
-    if (interpolation && strcmp(interpolation, "CUBICSPLINE") == 0) channel->interpolation = GLTF_CUBIC;
-    const size_t total = good ? (size_t)values.count * (size_t)values.components : 0,
-                 keys = (size_t)times.count * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
-    good = good && total > 0 && total % keys == 0 && (!is_rotation || total == 4 * keys);
-    if (good) {
-        channel->key_count = times.count;
-        channel->components = (int)(total / keys);
-        channel->times = need((size_t)times.count, sizeof *channel->times);
-        channel->values = need(total, sizeof *channel->values);
-        for (int k = 0; k < times.count; k++) channel->times[k] = (float)times.values[k];
-        for (size_t i = 0; i < total; i++) channel->values[i] = (float)values.values[i];
-        *element = values.components;
-    }
-    free(times.values);
-    free(values.values);
-    return good;
-}
 
 static int stride_of(const struct gltf_channel *channel)
 {
@@ -477,9 +415,31 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
                                                  [3] = ELEMENTS_KEY_VECTORS,
                                                  [4] = ELEMENTS_TURNS,
                                                  [16] = ELEMENTS_MATRICES};
-    struct gltf_channel own, unrolled, result;
-    int element = 0;
-    if (!read_sampler(stored, sampler, is_rotation, &own, &element)) return;
+    const char *interpolation = json_string_value(json_object_get(sampler, "interpolation"));
+    struct glb_numbers times = {0}, values = {0};
+    struct error error;
+    bool good = glb_numbers(stored, glb_integer(sampler, "input", -1), &times, &error) &&
+                glb_numbers(stored, glb_integer(sampler, "output", -1), &values, &error) && times.components == 1 &&
+                times.count > 0;
+    struct gltf_channel unrolled, result,
+        own = {.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
+    if (interpolation && strcmp(interpolation, "STEP") == 0) own.interpolation = GLTF_STEP;
+    if (interpolation && strcmp(interpolation, "CUBICSPLINE") == 0) own.interpolation = GLTF_CUBIC;
+    const size_t all_values = good ? (size_t)values.count * (size_t)values.components : 0,
+                 all_keys = (size_t)times.count * (own.interpolation == GLTF_CUBIC ? 3 : 1);
+    good = good && all_values > 0 && all_values % all_keys == 0 && (!is_rotation || all_values == 4 * all_keys);
+    if (good) {
+        own.key_count = times.count;
+        own.components = (int)(all_values / all_keys);
+        own.times = need((size_t)times.count, sizeof *own.times);
+        own.values = need(all_values, sizeof *own.values);
+        for (int k = 0; k < times.count; k++) own.times[k] = (float)times.values[k];
+        for (size_t i = 0; i < all_values; i++) own.values[i] = (float)values.values[i];
+    }
+    free(times.values);
+    free(values.values);
+    if (!good) return;
+    const int element = values.components;
     const int stride = stride_of(&own), middle = stride > own.components ? own.components : 0, count = own.key_count;
 
     // The keys of all rounds, in the exported file's times. A channel that begins after its clip, or ends before, stands still there.
@@ -524,31 +484,6 @@ static bool is_chains(const struct form *form, const json_t *channel)
     const json_t *target = json_object_get(channel, "target");
     const char *path = json_string_value(json_object_get(target, "path"));
     return path && strcmp(path, "rotation") == 0 && is_bone(form, glb_integer(target, "node", -1));
-}
-
-/// Lets all samplers but those of chains have the part's keys.
-static bool cut_clip(struct gltf_file *file, const struct form *form, json_t *clip, const struct part *part,
-                     struct error *error)
-{
-    const struct model_body *body = form->owned;
-    json_t *samplers = json_object_get(clip, "samplers");
-    const json_t *channel;
-    size_t i;
-    struct glb stored;
-    if (!glb_open(&stored, body->gltf->path, error)) return false;
-    bool *done = need_zeroed(json_array_size(samplers) + 1, sizeof *done);
-    const bool is_read = glb_read_buffers(&stored, error);
-    json_array_foreach(json_object_get(clip, "channels"), i, channel)
-    {
-        const char *path = json_string_value(json_object_get(json_object_get(channel, "target"), "path"));
-        const size_t sampler = (size_t)glb_integer(channel, "sampler", -1);
-        if (!is_read || sampler >= json_array_size(samplers) || done[sampler] || is_chains(form, channel)) continue;
-        done[sampler] = true;
-        cut_sampler(file, &stored, json_array_get(samplers, sampler), path && strcmp(path, "rotation") == 0, part);
-    }
-    free(done);
-    glb_close(&stored);
-    return is_read;
 }
 
 // --- the clip
@@ -617,7 +552,31 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
     const struct model_body *body = form->owned;
     const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]]->model;
     const char *wanted = range->options->clip ? range->options->clip : model->clip ? model->clip : range->title;
-    const struct part part = part_of(range, model, body->clip);
+    const struct gltf_clip *playing = body->clip;
+    const double fps = range->posing->document->fps;
+    struct part part = {.from = range_frame(range, 0) / fps, .to = range_frame(range, range->key_count - 1) / fps};
+    part.shift = -part.from;
+    if (playing) {
+        // The part that the keys cover. It is the clip itself where they begin and end within a frame of it; one that plays once, or is a
+        // single pose, may end before.
+        part.play = clip_play(model, playing);
+        part.end = playing->last;
+        const double length = part.play.length, frame = fmax(1, range->spacing) / fps;
+        const bool ends =
+            part.to > part.end - frame && (!part.play.loops || part.to < playing->first + length + frame);
+        part.is_clip = !(length > 0) || (fabs(part.from - playing->first) < frame && ends);
+        if (part.is_clip && length > 0) {
+            part.from = playing->first;
+            if (part.play.loops || part.to < part.end + frame) part.to = part.end;
+        }
+        part.shift = playing->first - part.from;
+        if (part.play.loops && length > 0) {
+            const double begin = floor((part.from - playing->first) / length + 1e-6),
+                         end = ceil((part.to - playing->first) / length - 1e-6) - 1;
+            part.rounds[0] = (int)fmin(fmax(begin, -1e9), 1e9); // a round is no shorter than a key
+            part.rounds[1] = part.rounds[0] + (int)fmin(fmax(end - begin, 0), range->key_count);
+        }
+    }
     struct gltf_motion motion = {.file = file};
     struct keys keys;
     size_t i;
@@ -636,9 +595,27 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
     free(name);
     motion.samplers = json_object_get(clip, "samplers");
     motion.channels = json_object_get(clip, "channels");
-    if (body->clip && !part.is_clip && !cut_clip(file, form, clip, &part, error)) {
-        json_decref(clip);
-        return false;
+    if (playing && !part.is_clip) { // all samplers but those of chains get the part's keys
+        struct glb stored;
+        bool is_read = glb_open(&stored, body->gltf->path, error);
+        const size_t samplers = json_array_size(motion.samplers);
+        bool *done = need_zeroed(samplers + 1, sizeof *done);
+        if (is_read && !(is_read = glb_read_buffers(&stored, error))) glb_close(&stored);
+        json_array_foreach(is_read ? motion.channels : NULL, i, channel)
+        {
+            const char *path = json_string_value(json_object_get(json_object_get(channel, "target"), "path"));
+            const size_t s = (size_t)glb_integer(channel, "sampler", -1);
+            if (s >= samplers || done[s] || is_chains(form, channel)) continue;
+            done[s] = true;
+            cut_sampler(file, &stored, json_array_get(motion.samplers, s), path && strcmp(path, "rotation") == 0,
+                        &part);
+        }
+        free(done);
+        if (is_read) glb_close(&stored);
+        if (!is_read) {
+            json_decref(clip);
+            return false;
+        }
     }
 
     // The keys turn the bones of chains, in the channels that the clip has for them, or new ones.
@@ -683,16 +660,6 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
     return true;
 }
 
-// --- the file
-
-/// The file that the clip goes into.
-struct original {
-    struct glb source;
-    struct gltf_file file; ///< its JSON, and the bytes of the buffer that new ones go into
-    bool is_same;          ///< the container stays what it is
-    int clips;             ///< that were put into it
-};
-
 // --- the other container: all bytes in one buffer without an address, pictures too
 
 /// Lets a view, or an extension of one, find its bytes again. False if memory is short.
@@ -705,63 +672,60 @@ static bool move_view(json_t *view, const size_t *starts, size_t count)
             json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer])) == 0);
 }
 
-/// The type of a picture; NULL: unknown.
-static const char *kind_of(struct glb_bytes bytes)
+/// Puts all bytes that `source` refers to into one buffer.
+static bool gather(struct glb *source, struct gltf_file *file, struct error *error)
 {
     static const struct {
         const char *start, *kind;
         size_t length;
     } kinds[] = {{"\x89PNG", "image/png", 4}, {"\xFF\xD8", "image/jpeg", 2}, {"\xABKTX 20", "image/ktx2", 7}};
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        if (bytes.size >= kinds[i].length && memcmp(bytes.at, kinds[i].start, kinds[i].length) == 0)
-            return kinds[i].kind;
-    }
-    const bool webp = bytes.size >= 12 && memcmp(bytes.at, "RIFF", 4) == 0 && memcmp(bytes.at + 8, "WEBP", 4) == 0;
-    return webp ? "image/webp" : NULL;
-}
-
-static bool gather(struct original *o, struct error *error)
-{
     json_t *view, *extension, *image;
     size_t i;
-    if (!glb_read_buffers(&o->source, error)) return false;
-    const size_t count = json_array_size(json_object_get(o->source.json, "buffers"));
+    if (!glb_read_buffers(source, error)) return false;
+    const size_t count = json_array_size(json_object_get(source->json, "buffers"));
     size_t *starts = calloc(count + 1, sizeof *starts);
     bool done = starts;
     for (size_t b = 0; done && b < count; b++) { // all there is: views may reach beyond the byteLength
-        const struct glb_bytes bytes = o->source.buffers[b].bytes;
-        starts[b] = gltf_file_append(&o->file, bytes.at, bytes.size);
+        const struct glb_bytes bytes = source->buffers[b].bytes;
+        starts[b] = gltf_file_append(file, bytes.at, bytes.size);
     }
-    json_array_foreach(o->file.views, i, view)
+    json_array_foreach(file->views, i, view)
     {
         const char *name;
         done = done && move_view(view, starts, count);
         json_object_foreach(json_object_get(view, "extensions"), name, extension) done =
             done && move_view(extension, starts, count);
     }
-    if (o->file.size > 0) json_object_del(o->source.json, "buffers");
+    if (file->size > 0) json_object_del(source->json, "buffers");
     free(starts);
 
-    json_array_foreach(json_object_get(o->source.json, "images"), i, image)
+    json_array_foreach(json_object_get(source->json, "images"), i, image)
     {
         const char *uri = json_string_value(json_object_get(image, "uri"));
         struct glb_buffer picture;
         struct error why = {0};
         if (!done || !uri) continue;
-        if (!glb_read_uri(&o->source, uri, &picture, &why)) { // it keeps its address
+        if (!glb_read_uri(source, uri, &picture, &why)) { // it keeps its address
             done = why.kind != ERROR_ENVIRONMENT;
             continue;
         }
-        const char *kind = kind_of(picture.bytes);
+        const struct glb_bytes bytes = picture.bytes;
+        const bool webp =
+            bytes.size >= 12 && memcmp(bytes.at, "RIFF", 4) == 0 && memcmp(bytes.at + 8, "WEBP", 4) == 0;
+        const char *kind = webp ? "image/webp" : NULL;
+        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+            if (bytes.size >= kinds[k].length && memcmp(bytes.at, kinds[k].start, kinds[k].length) == 0)
+                kind = kinds[k].kind;
+        }
         if (kind) {
-            const json_int_t own = gltf_file_add_bytes(&o->file, picture.bytes.at, picture.bytes.size);
-            gltf_set(&o->file, image, "bufferView", json_integer(own));
-            gltf_set(&o->file, image, "mimeType", json_string(kind));
+            const json_int_t own = gltf_file_add_bytes(file, picture.bytes.at, picture.bytes.size);
+            gltf_set(file, image, "bufferView", json_integer(own));
+            gltf_set(file, image, "mimeType", json_string(kind));
             json_object_del(image, "uri");
         }
         free(picture.owned);
     }
-    return done || fail_no_memory(error, o->source.path);
+    return done || fail_no_memory(error, source->path);
 }
 
 // --- the same container
@@ -792,7 +756,7 @@ static bool check_place(const struct export_range *range, const struct glb *sour
 // --- the clips
 
 /// Adds what the chains make of another clip of the file.
-static bool put_other(struct export_range *range, int clip, struct original *o, struct error *error)
+static bool put_other(struct export_range *range, int clip, struct gltf_file *file, json_t *root, struct error *error)
 {
     const struct posing *first = range->posing;
     const int rig = range->rigs[0];
@@ -809,8 +773,7 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
     range->posing = &posing;
     bool done = range_choose_keys(range, &report, error) && form_open(range, rig, &form, error);
     if (done) {
-        done = put_clip(range, &form, &o->file, o->source.json, error);
-        o->clips++;
+        done = put_clip(range, &form, file, root, error);
         form_close(&form);
     }
     evaluation_free(&evaluation);
@@ -823,7 +786,9 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
 /// same, also in the other container (.glb or .gltf). Without a chain the clip stays, too.
 static bool write_model(struct export_range *range, FILE *out, struct error *error)
 {
-    struct original o = {0};
+    struct glb source;
+    struct gltf_file to = {0}; // the file's JSON, and the bytes of the buffer that new ones go into
+    int clips = 0;             // that were put into it
     struct form form;
     struct rig_pose pose;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
@@ -831,69 +796,70 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     const bool has_clip = form.joint_count > 0, binary = range->format->is_binary;
     bool done = range_pose(range, range->rigs[0], 0, &pose, error);
     const float *root = done ? range_root(range, range->rigs[0], &pose) : NULL;
-    if (!done || !glb_open(&o.source, body->gltf->path, error)) {
+    if (!done || !glb_open(&source, body->gltf->path, error)) {
         form_close(&form);
         return false;
     }
-    const bool was_packed = glb_is_packed(&o.source);
-    o.is_same = !was_packed && (memcmp(o.source.data, "glTF", 4) == 0) == binary;
-    if (!has_clip && o.is_same && !root) {
+    const bool was_packed = glb_is_packed(&source);
+    const bool is_same = !was_packed && (memcmp(source.data, "glTF", 4) == 0) == binary; // the container
+    if (!has_clip && is_same && !root) {
         char *data = NULL;
         size_t size;
-        done =
-            check_place(range, &o.source, error) && file_read(body->gltf->path, GLB_FILE_LIMIT, &data, &size, error);
+        done = check_place(range, &source, error) && file_read(body->gltf->path, GLB_FILE_LIMIT, &data, &size, error);
         if (done) fwrite(data, 1, size, out);
         free(data);
     } else {
         // The bytes that new ones follow: those of a .glb's chunk, if that is its first buffer; none of a .gltf; else all there are.
-        const json_t *buffers = json_object_get(o.source.json, "buffers"), *first = json_array_get(buffers, 0);
-        const bool has_chunk = o.source.chunk.at && first && !json_object_get(first, "uri");
-        gltf_file_continue(&o.file, o.source.json);
-        if (!o.is_same || (binary && !has_chunk)) {
-            done = gather(&o, error);
+        const json_t *buffers = json_object_get(source.json, "buffers"), *first = json_array_get(buffers, 0);
+        const bool has_chunk = source.chunk.at && first && !json_object_get(first, "uri");
+        gltf_file_continue(&to, source.json);
+        if (!is_same || (binary && !has_chunk)) {
+            done = gather(&source, &to, error);
         } else {
-            if (has_chunk) gltf_file_append(&o.file, o.source.chunk.at, o.source.chunk.size);
-            if (!has_chunk) o.file.buffer = (json_int_t)json_array_size(buffers);
-            done = check_place(range, &o.source, error);
+            if (has_chunk) gltf_file_append(&to, source.chunk.at, source.chunk.size);
+            if (!has_chunk) to.buffer = (json_int_t)json_array_size(buffers);
+            done = check_place(range, &source, error);
         }
         if (done && has_clip) {
-            done = put_clip(range, &form, &o.file, o.source.json, error);
-            o.clips = 1;
+            done = put_clip(range, &form, &to, source.json, error);
+            clips = 1;
         }
         for (int c = 0; done && has_clip && range->options->all_clips && c < body->gltf->clip_count; c++) {
             const struct gltf_clip *clip = &body->gltf->clips[c]; // chains do not move in clips of a single pose
-            if (clip != body->clip && clip->last > clip->first) done = put_other(range, c, &o, error);
+            if (clip == body->clip || !(clip->last > clip->first)) continue;
+            done = put_other(range, c, &to, source.json, error);
+            clips++;
         }
 
         // All scenes' nodes go under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
         // validators warn of one that has a parent.
-        json_t *nodes = json_object_get(o.source.json, "nodes"), *scene, *number;
+        json_t *nodes = json_object_get(source.json, "nodes"), *scene, *number;
         size_t s, i;
-        json_array_foreach(done && root ? json_object_get(o.source.json, "scenes") : NULL, s, scene)
+        json_array_foreach(done && root ? json_object_get(source.json, "scenes") : NULL, s, scene)
         {
             json_t *placed = json_array(), *roots = json_array();
             json_array_foreach(json_object_get(scene, "nodes"), i, number)
             {
                 const json_t *node = json_array_get(nodes, (size_t)json_integer_value(number));
                 const bool is_skinned = json_object_get(node, "skin") && !json_object_get(node, "children");
-                gltf_append(&o.file, is_skinned ? roots : placed, json_incref(number));
+                gltf_append(&to, is_skinned ? roots : placed, json_incref(number));
             }
             if (json_array_size(placed) > 0) {
-                json_t *shown = json_pack("{s:s, s:o, s:O}", "name", "as shown", "matrix", reals(&o.file, root, 16),
+                json_t *shown = json_pack("{s:s, s:o, s:O}", "name", "as shown", "matrix", reals(&to, root, 16),
                                           "children", placed);
-                gltf_append(&o.file, roots, json_integer(gltf_append(&o.file, nodes, shown)));
-                gltf_set(&o.file, scene, "nodes", json_incref(roots));
+                gltf_append(&to, roots, json_integer(gltf_append(&to, nodes, shown)));
+                gltf_set(&to, scene, "nodes", json_incref(roots));
             }
             json_decref(placed);
             json_decref(roots);
         }
-        done = done && gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
+        done = done && gltf_file_write(&to, json_incref(source.json), binary, out, error);
     }
-    gltf_file_free(&o.file);
-    glb_close(&o.source);
+    gltf_file_free(&to);
+    glb_close(&source);
     if (has_clip) {
         snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains in %d clip%s, %ld keys%s", form.joint_count,
-                 o.clips, o.clips == 1 ? "" : "s", range->total, was_packed ? ", meshes decompressed" : "");
+                 clips, clips == 1 ? "" : "s", range->total, was_packed ? ", meshes decompressed" : "");
     } else {
         snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no chain moves it",
                  was_packed ? "meshes decompressed, " : "");

@@ -41,8 +41,6 @@ struct usda_model {
     struct usda_joint *joints;    ///< parents before their children
     int joint_count;
     int *joint_of;          ///< of each node: the last of its joints; −1: none
-    int *slot_of;           ///< of each node: which joint of skin `slots` it is; −1: none
-    int slots;              ///< −1: none yet
     const char **materials; ///< their prims
     const char **skeletons;
     struct names prims, joint_names, shape_tokens, shape_prims, material_prims;
@@ -76,11 +74,8 @@ static bool is_letter(uint32_t c, bool is_first)
     return false;
 }
 
-/// A set of names of prims, or of joints.
-static struct names usda_names(void)
-{
-    return (struct names){.between = "_", .most = 63};
-} // as many as Blender keeps
+/// An empty set of names of prims, or of joints: as long as Blender keeps them.
+static const struct names no_names = {.between = "_", .most = 63};
 
 /// Takes a name of letters, digits and "_": "up.-re" → "up_minus_re". All are ASCII, because older readers take no other names of prims;
 /// of joints, which are paths in strings, they may be of any script.
@@ -250,19 +245,27 @@ static void make_joints(struct usda_model *model)
 
 // --- where it was bound
 
-/// The inverse of an affine matrix; false where it has none.
-static bool invert(const float m[16], double inverse[16])
+/// Of a joint in the character's space as a skeleton was bound to it, or at rest where the skin has no such joint.
+static void usda_bind(const struct usda_model *model, int skeleton, int joint, double matrix[16])
 {
-    double a[3][3];
+    const struct gltf_skin *skin = skeleton < model->gltf->skin_count ? &model->gltf->skins[skeleton] : NULL;
+    const int node = model->joints[joint].node;
+    int slot = 0;
+    while (skin && slot < skin->joint_count && skin->joints[slot] != node) slot++;
+    memcpy(matrix, model->joints[joint].world, sizeof model->joints[joint].world);
+    if (!skin || slot == skin->joint_count || model->joint_of[node] != joint) return;
+
+    // The inverse of an affine matrix, where it has one.
+    const float *m = skin->inverse_bind[slot];
+    double a[3][3], inverse[16], det = 0;
     for (int i = 0; i < 9; i++) a[i / 3][i % 3] = (double)m[i / 3 * 4 + i % 3];
-    double det = 0;
     for (int c = 0; c < 3; c++) {
         const double *p = a[(c + 1) % 3], *q = a[(c + 2) % 3];
         for (int r = 0; r < 3; r++)
             inverse[4 * r + c] = p[(r + 1) % 3] * q[(r + 2) % 3] - p[(r + 2) % 3] * q[(r + 1) % 3];
     }
     for (int r = 0; r < 3; r++) det += a[0][r] * inverse[4 * r];
-    if (!(fabs(det) > 1e-300)) return false;
+    if (!(fabs(det) > 1e-300)) return;
     for (int c = 0; c < 3; c++) {
         for (int r = 0; r < 3; r++) inverse[4 * c + r] /= det;
         inverse[4 * c + 3] = 0;
@@ -271,58 +274,7 @@ static bool invert(const float m[16], double inverse[16])
         inverse[12 + r] =
             -(inverse[r] * (double)m[12] + inverse[4 + r] * (double)m[13] + inverse[8 + r] * (double)m[14]);
     inverse[15] = 1;
-    return true;
-}
-
-/// Finds the nodes of a skin among its joints.
-static void find_slots(const struct usda_model *model, int skin, bool joints)
-{
-    for (int j = skin >= 0 ? model->gltf->skins[skin].joint_count - 1 : -1; j >= 0; j--)
-        model->slot_of[model->gltf->skins[skin].joints[j]] = joints ? j : -1;
-}
-
-/// Of a joint in the character's space as a skeleton was bound to it, or at rest where the skin has no such joint.
-static void usda_bind(struct usda_model *model, int skeleton, int joint, double matrix[16])
-{
-    const struct gltf *gltf = model->gltf;
-    const int node = model->joints[joint].node, skin = skeleton < gltf->skin_count ? skeleton : -1;
-    if (skin != model->slots) {
-        find_slots(model, model->slots, false);
-        find_slots(model, skin, true);
-        model->slots = skin;
-    }
-    const int slot = model->joint_of[node] == joint ? model->slot_of[node] : -1;
-    if (slot < 0 || !invert(gltf->skins[skin].inverse_bind[slot], matrix))
-        memcpy(matrix, model->joints[joint].world, sizeof model->joints[joint].world);
-}
-
-// --- keys
-
-/// Poses the model at each key: as the scene has it, or as its clip says.
-static bool collect_keys(struct usda_model *model, struct gltf_pose *own, struct error *error)
-{
-    const struct gltf *gltf = model->gltf;
-    const size_t nodes = (size_t)gltf->node_count, weights = (size_t)gltf->weight_count;
-    for (int k = 0; k < model->range->key_count; k++) {
-        const struct gltf_pose *pose = own;
-        struct rig_pose posed;
-        struct gltf_place *at = model->places + (size_t)k * nodes;
-        if (model->is_own) {
-            gltf_pose_clip(gltf, gltf->clip_count > 0 ? 0 : -1, (float)range_seconds(model->range, k), own);
-        } else {
-            if (!range_pose(model->range, model->rig, k, &posed, error) || !range_proceed(model->range, error))
-                return false;
-            pose = posed.model.pose;
-        }
-        memcpy(at, pose->place, nodes * sizeof *at);
-        memcpy(model->weights + (size_t)k * weights, pose->weights, weights * sizeof *model->weights);
-        for (size_t n = 0; n < nodes; n++)
-            keys_turn_short_way(k > 0 ? (at + n - nodes)->rotation : gltf->nodes[n].place.rotation, at[n].rotation);
-    }
-    keys_close_loop((float *)model->places, gltf->node_count * (int)(sizeof *model->places / sizeof(float)),
-                    model->range->key_count);
-    keys_close_loop(model->weights, gltf->weight_count, model->range->key_count);
-    return true;
+    memcpy(matrix, inverse, sizeof inverse);
 }
 
 // --- the skeletons
@@ -463,43 +415,17 @@ static void write_animation(const struct usda_model *model)
 
 // --- materials
 
-/// A material being written; `file` is that of its texture, or empty.
-struct usda_look {
-    const struct usda_model *model;
-    const struct gltf_material *material;
-    const char *name, *file;
-    bool is_plain; ///< no vertex of it has a colour of its own
-};
-
-/// Writes a picture's file, into a folder called as the .usda: "walk.usda" → "walk_textures". False with a sentence.
-static bool write_picture(const struct usda_model *model, const char *stem, const struct gltf_image *image,
-                          char file[PATH_LIMIT], struct error *error)
-{
-    const char *path = model->range->path, *dot = strrchr(path, '.');
-    char name[80], folder[PATH_LIMIT];
-    struct names none = usda_names();
-    snprintf(name, sizeof name, "%s_%d.%s", usda_name(&none, stem, false), model->range->sidecars.count,
-             image->bytes[0] == 0xFF ? "jpg" : "png");
-    names_free(&none);
-    char *stem_name = name_from(path_name(path), dot ? (size_t)(dot - path_name(path)) : strlen(path_name(path)));
-    snprintf(folder, PATH_LIMIT, "%.*s%s_textures", (int)(path_name(path) - path), path, stem_name);
-    free(stem_name);
-    if (snprintf(file, PATH_LIMIT, "./%s/%s", path_name(folder), name) >= PATH_LIMIT)
-        return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
-    return sidecars_add(&model->range->sidecars, folder, name, image->bytes, image->size, error);
-}
-
 static void begin_shader(FILE *out, const char *name, const char *id)
 {
     fprintf(out, "\n                def Shader \"%s\"\n                {\n", name);
     fprintf(out, "                    uniform token info:id = \"%s\"\n", id);
 }
 
-/// "name.connect = </…>", to an output of another shader of the material.
-static void connect(const struct usda_look *look, const char *name, const char *output)
+/// "input.connect = </…>", to an output of another shader of the material.
+static void connect(const struct usda_model *model, const char *material, const char *input, const char *output)
 {
-    fprintf(look->model->out, "                    %s.connect = </scene/%s/materials/%s/%s>\n", name,
-            look->model->name, look->name, output);
+    fprintf(model->out, "                    %s.connect = </scene/%s/materials/%s/%s>\n", input, model->name,
+            material, output);
 }
 
 static const char *wrap_of(int wrap)
@@ -507,63 +433,15 @@ static const char *wrap_of(int wrap)
     return wrap == GLTF_CLAMPED ? "clamp" : wrap == GLTF_MIRRORED ? "mirror" : "repeat";
 }
 
-static void write_material(const struct usda_look *look)
-{
-    FILE *out = look->model->out;
-    const struct gltf_material *m = look->material;
-    const float *c = m->color;
-    usda_begin(out, 12, "Material", look->name, m->name, NULL);
-    fprintf(out, "                token outputs:surface.connect = </scene/%s/materials/%s/surface.outputs:surface>\n",
-            look->model->name, look->name);
-    begin_shader(out, "surface", "UsdPreviewSurface");
-    if (look->is_plain && !look->file[0]) {
-        usda_vector(out, "                    color3f inputs:diffuseColor = ", c);
-        fputc('\n', out);
-    } else {
-        connect(look, "color3f inputs:diffuseColor", look->file[0] ? "texture.outputs:rgb" : "color.outputs:result");
-    }
-    if ((m->blended || m->cutoff > 0) && look->file[0]) {
-        connect(look, "float inputs:opacity", "texture.outputs:a");
-    } else if (m->blended) {
-        fprintf(out, "                    float inputs:opacity = %.9g\n", (double)c[3]);
-    }
-    if (m->cutoff > 0) fprintf(out, "                    float inputs:opacityThreshold = %.9g\n", (double)m->cutoff);
-    if (m->shines) {
-        fprintf(out, "                    float inputs:metallic = %.9g\n", m->metallic);
-        fprintf(out, "                    float inputs:roughness = %.9g\n", m->roughness);
-    }
-    fputs("                    token outputs:surface\n                }\n", out);
-
-    if (look->file[0]) {
-        const char *quote = strchr(look->file, '@') ? "@@@" : "@";
-        begin_shader(out, "texture", "UsdUVTexture");
-        fprintf(out, "                    asset inputs:file = %s%s%s\n", quote, look->file, quote);
-        fprintf(out, "                    float4 inputs:scale = (%.9g, %.9g, %.9g, %.9g)\n", (double)c[0],
-                (double)c[1], (double)c[2], (double)c[3]);
-        fputs("                    token inputs:sourceColorSpace = \"sRGB\"\n", out);
-        connect(look, "float2 inputs:st", "st.outputs:result");
-        fprintf(out, "                    token inputs:wrapS = \"%s\"\n", wrap_of(m->sampler.wrap[0]));
-        fprintf(out, "                    token inputs:wrapT = \"%s\"\n", wrap_of(m->sampler.wrap[1]));
-        fputs("                    float outputs:a\n                    float3 outputs:rgb\n                }\n",
-              out);
-        begin_shader(out, "st", "UsdPrimvarReader_float2");
-        fputs("                    string inputs:varname = \"st\"\n", out);
-        fputs("                    float2 outputs:result\n                }\n", out);
-    } else if (!look->is_plain) { // colours by vertex hold the material's own
-        begin_shader(out, "color", "UsdPrimvarReader_float3");
-        fputs("                    string inputs:varname = \"displayColor\"\n", out);
-        fputs("                    float3 outputs:result\n                }\n", out);
-    }
-    fputs("            }\n\n", out);
-}
-
 /// Names all materials and writes them, and their textures' files.
 static bool write_materials(struct usda_model *model, struct error *error)
 {
     const struct gltf *gltf = model->gltf;
-    char(*files)[PATH_LIMIT] = need_zeroed((size_t)gltf->image_count + 1, sizeof *files); // a picture is written once
-    bool *colored =
-        need_zeroed((size_t)gltf->material_count + 1, sizeof *colored); // its vertices have colours of their own
+    FILE *out = model->out;
+    // A picture is written once; the name behind the last stays empty.
+    char(*files)[PATH_LIMIT] = need_zeroed((size_t)gltf->image_count + 1, sizeof *files);
+    // Whether a material's vertices have colours of their own.
+    bool *colored = need_zeroed((size_t)gltf->material_count + 1, sizeof *colored);
     bool done = true;
     for (int m = 0; m < gltf->mesh_count; m++) {
         for (int p = 0; p < gltf->meshes[m].part_count; p++) {
@@ -575,18 +453,77 @@ static bool write_materials(struct usda_model *model, struct error *error)
             }
         }
     }
-    fputs("        def Scope \"materials\"\n        {\n", model->out);
-    for (int m = 0; done && m < gltf->material_count; m++) {
-        model->materials[m] = usda_name(&model->material_prims, gltf->materials[m].name, false);
-        struct usda_look look = {model, &gltf->materials[m], model->materials[m], "", !colored[m]};
-        const int number = look.material->image; // −1: none, or it could not be shown
-        const struct gltf_image *image = number >= 0 ? &gltf->images[number] : NULL;
-        if (image) look.file = files[number];
-        if (image && !look.file[0])
-            done = write_picture(model, image->name ? image->name : look.name, image, files[number], error);
-        if (done) write_material(&look);
+    fputs("        def Scope \"materials\"\n        {\n", out);
+    for (int i = 0; done && i < gltf->material_count; i++) {
+        const struct gltf_material *m = &gltf->materials[i];
+        const struct gltf_image *image = m->image >= 0 ? &gltf->images[m->image] : NULL; // NULL: it has none to show
+        const float *c = m->color;
+        const char *name = model->materials[i] = usda_name(&model->material_prims, m->name, false);
+        char *const file = image ? files[m->image] : files[gltf->image_count];
+        if (image && !*file) { // into a folder called as the .usda: "walk.usda" → "walk_textures"
+            const char *path = model->range->path, *own = path_name(path), *dot = strrchr(path, '.');
+            char picture[80], folder[PATH_LIMIT];
+            struct names none = no_names;
+            snprintf(picture, sizeof picture, "%s_%d.%s", usda_name(&none, image->name ? image->name : name, false),
+                     model->range->sidecars.count, image->bytes[0] == 0xFF ? "jpg" : "png");
+            names_free(&none);
+            char *stem = name_from(own, dot ? (size_t)(dot - own) : strlen(own));
+            snprintf(folder, PATH_LIMIT, "%.*s%s_textures", (int)(own - path), path, stem);
+            free(stem);
+            if (snprintf(file, PATH_LIMIT, "./%s/%s", path_name(folder), picture) >= PATH_LIMIT)
+                done = fail(error, ERROR_INPUT, "%s: the path is too long", folder);
+            done = done && sidecars_add(&model->range->sidecars, folder, picture, image->bytes, image->size, error);
+            if (!done) break;
+        }
+        const bool is_plain = !colored[i];
+        usda_begin(out, 12, "Material", name, m->name, NULL);
+        fprintf(out,
+                "                token outputs:surface.connect = </scene/%s/materials/%s/surface.outputs:surface>\n",
+                model->name, name);
+        begin_shader(out, "surface", "UsdPreviewSurface");
+        if (is_plain && !*file) {
+            usda_vector(out, "                    color3f inputs:diffuseColor = ", c);
+            fputc('\n', out);
+        } else {
+            connect(model, name, "color3f inputs:diffuseColor",
+                    *file ? "texture.outputs:rgb" : "color.outputs:result");
+        }
+        if ((m->blended || m->cutoff > 0) && *file) {
+            connect(model, name, "float inputs:opacity", "texture.outputs:a");
+        } else if (m->blended) {
+            fprintf(out, "                    float inputs:opacity = %.9g\n", (double)c[3]);
+        }
+        if (m->cutoff > 0)
+            fprintf(out, "                    float inputs:opacityThreshold = %.9g\n", (double)m->cutoff);
+        if (m->shines) {
+            fprintf(out, "                    float inputs:metallic = %.9g\n", m->metallic);
+            fprintf(out, "                    float inputs:roughness = %.9g\n", m->roughness);
+        }
+        fputs("                    token outputs:surface\n                }\n", out);
+
+        if (*file) {
+            const char *quote = strchr(file, '@') ? "@@@" : "@";
+            begin_shader(out, "texture", "UsdUVTexture");
+            fprintf(out, "                    asset inputs:file = %s%s%s\n", quote, file, quote);
+            fprintf(out, "                    float4 inputs:scale = (%.9g, %.9g, %.9g, %.9g)\n", (double)c[0],
+                    (double)c[1], (double)c[2], (double)c[3]);
+            fputs("                    token inputs:sourceColorSpace = \"sRGB\"\n", out);
+            connect(model, name, "float2 inputs:st", "st.outputs:result");
+            fprintf(out, "                    token inputs:wrapS = \"%s\"\n", wrap_of(m->sampler.wrap[0]));
+            fprintf(out, "                    token inputs:wrapT = \"%s\"\n", wrap_of(m->sampler.wrap[1]));
+            fputs("                    float outputs:a\n                    float3 outputs:rgb\n                }\n",
+                  out);
+            begin_shader(out, "st", "UsdPrimvarReader_float2");
+            fputs("                    string inputs:varname = \"st\"\n", out);
+            fputs("                    float2 outputs:result\n                }\n", out);
+        } else if (!is_plain) { // colours by vertex hold the material's own
+            begin_shader(out, "color", "UsdPrimvarReader_float3");
+            fputs("                    string inputs:varname = \"displayColor\"\n", out);
+            fputs("                    float3 outputs:result\n                }\n", out);
+        }
+        fputs("            }\n\n", out);
     }
-    fputs("        }\n", model->out);
+    fputs("        }\n", out);
     free(colored);
     free(files);
     return done;
@@ -680,31 +617,6 @@ static void write_vertices(const struct run *run, const char *declaration, enum 
     }
 }
 
-/// The material's colour times the vertex's: where two materials meet, that of the later triangle.
-static void write_colors(const struct run *run)
-{
-    int count = 0, owner = 0, next = 0;
-    for (int p = 0; p < run->count; p++) first_vertex(run, p, &owner, &count);
-    float(*tint)[3] = need(((size_t)count + 1), sizeof *tint);
-    for (int i = 0; i < 3 * count; i++) tint[i / 3][i % 3] = 1;
-    for (int p = 0; p < run->count; p++) {
-        const struct gltf_part *part = &run->parts[p];
-        const int first = first_vertex(run, p, &owner, &next);
-        for (int i = 0; i < part->index_count; i++) {
-            const uint32_t v = part->indices[i];
-            for (int k = 0; k < 3; k++)
-                tint[first + (int)v][k] =
-                    (part->color ? part->color[v][k] : 1) *
-                    (part->material >= 0 ? run->model->gltf->materials[part->material].color[k] : 1);
-        }
-    }
-    fputs("            color3f[] primvars:displayColor = [", run->model->out);
-    for (int i = 0; i < count; i++) usda_vector(run->model->out, i > 0 ? ", " : "", tint[i]);
-    fputs("]", run->model->out);
-    end_by_vertex(run->model->out, 0);
-    free(tint);
-}
-
 /// The index behind the polygon that begins at index `i`.
 static int polygon_end(const struct gltf_part *part, int i)
 {
@@ -760,13 +672,23 @@ static void write_shapes(const struct run *run)
 
 // --- all of a mesh
 
-static void write_run(const struct run *run)
+static void write_run(struct run *run)
 {
     const struct usda_model *model = run->model;
     FILE *out = model->out;
+    // The joints that a vertex has at most; where a part has no skin, all of the run's have none.
+    const bool is_skinned = has_skin(model, run->node, run->parts);
+    for (int p = 0; is_skinned && p < run->count; p++) {
+        for (int i = 0; i < run->parts[p].vertex_count; i++) {
+            for (int k = run->influences; k < GLTF_INFLUENCES; k++) {
+                if (run->parts[p].weights[i][k] != 0) run->influences = k + 1;
+            }
+        }
+    }
+    if (is_skinned && run->influences == 0) run->influences = 1;
     const char *before = "";
     bool double_sided = false, has_uv = false;
-    int owner = 0, next = 0, face = 0;
+    int face = 0;
     for (int p = 0; p < run->count; p++) {
         const int material = run->parts[p].material;
         double_sided = double_sided || (material >= 0 && model->gltf->materials[material].double_sided);
@@ -777,7 +699,27 @@ static void write_run(const struct run *run)
     if (double_sided) fputs("            uniform bool doubleSided = 1\n", out);
     write_vertices(run, "point3f[] points", POINTS);
     if (run->parts->normal) write_vertices(run, "normal3f[] normals", NORMALS);
-    write_colors(run);
+
+    // The material's colour times the vertex's: where two materials meet, that of the later triangle.
+    int count = 0, owner = 0, next = 0;
+    for (int p = 0; p < run->count; p++) first_vertex(run, p, &owner, &count);
+    float(*tint)[3] = need(((size_t)count + 1), sizeof *tint);
+    for (int i = 0; i < 3 * count; i++) tint[i / 3][i % 3] = 1;
+    for (int p = 0; p < run->count; p++) {
+        const struct gltf_part *part = &run->parts[p];
+        const int first = first_vertex(run, p, &owner, &next);
+        for (int i = 0; i < part->index_count; i++) {
+            const uint32_t v = part->indices[i];
+            for (int k = 0; k < 3; k++)
+                tint[first + (int)v][k] = (part->color ? part->color[v][k] : 1) *
+                                          (part->material >= 0 ? model->gltf->materials[part->material].color[k] : 1);
+        }
+    }
+    fputs("            color3f[] primvars:displayColor = [", out);
+    for (int i = 0; i < count; i++) usda_vector(out, i > 0 ? ", " : "", tint[i]);
+    fputs("]", out);
+    end_by_vertex(out, 0);
+    free(tint);
     if (has_uv) write_vertices(run, "texCoord2f[] primvars:st", UVS);
 
     fputs("            int[] faceVertexCounts = [", out);
@@ -788,6 +730,7 @@ static void write_run(const struct run *run)
         }
     }
     before = "";
+    owner = next = 0;
     fputs("]\n            int[] faceVertexIndices = [", out);
     for (int p = 0; p < run->count; p++) {
         const struct gltf_part *part = &run->parts[p];
@@ -837,21 +780,6 @@ static void write_run(const struct run *run)
     fputs("        }\n", out);
 }
 
-/// The joints that a vertex has at most; where a part has no skin, all of the run's have none.
-static int count_influences(const struct run *run)
-{
-    int most = 0;
-    if (!has_skin(run->model, run->node, run->parts)) return 0;
-    for (int p = 0; p < run->count; p++) {
-        for (int i = 0; i < run->parts[p].vertex_count; i++) {
-            for (int k = most; k < GLTF_INFLUENCES; k++) {
-                if (run->parts[p].weights[i][k] != 0) most = k + 1;
-            }
-        }
-    }
-    return most > 0 ? most : 1;
-}
-
 // --- all of it
 
 /// Writes the prim of a rig. False with a sentence. All of the model but what it is made of is zero.
@@ -865,7 +793,7 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
     struct pool *pool = &model->pool;
     struct names *const sets[] = {&model->prims, &model->joint_names, &model->shape_tokens, &model->shape_prims,
                                   &model->material_prims};
-    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) *sets[i] = usda_names();
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) *sets[i] = no_names;
     const bool room = need_has_room(keys * (nodes * sizeof *model->places + weights * sizeof *model->weights));
     if (room) {
         model->places = pool_take(pool, keys * nodes, sizeof *model->places);
@@ -873,15 +801,32 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
         model->shapes = pool_take(pool, weights, sizeof *model->shapes);
         model->joints = pool_take(pool, 2 * nodes, sizeof *model->joints);
         model->joint_of = pool_take(pool, nodes, sizeof *model->joint_of);
-        model->slot_of = pool_take(pool, nodes, sizeof *model->slot_of);
         model->materials = pool_take(pool, (size_t)gltf->material_count, sizeof *model->materials);
         model->skeletons = pool_take(pool, (size_t)gltf->skin_count + 1, sizeof *model->skeletons);
-        for (size_t n = 0; n < nodes; n++) model->slot_of[n] = -1;
-        model->slots = -1;
     }
     bool done = (room && gltf_pose_create(gltf, &pose)) || fail_no_memory(error, gltf->path);
-    done = done && collect_keys(model, &pose, error);
-    if (done) make_joints(model);
+    struct rig_pose posed;
+    for (int k = 0; done && k < model->range->key_count; k++) { // as the scene has it, or as its clip says
+        const struct gltf_pose *now = &pose;
+        struct gltf_place *at = model->places + (size_t)k * nodes;
+        if (model->is_own) {
+            gltf_pose_clip(gltf, gltf->clip_count > 0 ? 0 : -1, (float)range_seconds(model->range, k), &pose);
+        } else {
+            done = range_pose(model->range, model->rig, k, &posed, error) && range_proceed(model->range, error);
+            if (!done) break;
+            now = posed.model.pose;
+        }
+        memcpy(at, now->place, nodes * sizeof *at);
+        memcpy(model->weights + (size_t)k * weights, now->weights, weights * sizeof *model->weights);
+        for (size_t n = 0; n < nodes; n++)
+            keys_turn_short_way(k > 0 ? (at + n - nodes)->rotation : gltf->nodes[n].place.rotation, at[n].rotation);
+    }
+    if (done) {
+        keys_close_loop((float *)model->places, gltf->node_count * (int)(sizeof *model->places / sizeof(float)),
+                        model->range->key_count);
+        keys_close_loop(model->weights, gltf->weight_count, model->range->key_count);
+        make_joints(model);
+    }
 
     // Targets are called as in the file (a custom of many exporters), else by number; those of all nodes together differ.
     for (int n = 0; done && n < gltf->node_count; n++) {
@@ -896,7 +841,6 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
         }
     }
 
-    struct rig_pose posed;
     if (done) {
         fputc('\n', model->out);
         usda_begin(model->out, 4, "SkelRoot", model->name,
@@ -931,7 +875,6 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
                     run.owner = end - p;
             }
             run.count = end - p;
-            run.influences = count_influences(&run);
             run.name = usda_name(&model->prims, gltf->nodes[n].name, false);
             write_run(&run);
         }
@@ -945,7 +888,7 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
 
 bool usda_write(struct export_range *range, FILE *out, struct error *error)
 {
-    struct names names = usda_names();
+    struct names names = no_names;
     bool done = true;
     fprintf(out, "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n");
     fprintf(out, "    startTimeCode = %.9g\n    endTimeCode = %.9g\n    timeCodesPerSecond = %.9g\n)\n",
