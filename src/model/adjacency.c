@@ -130,12 +130,6 @@ struct adjacency adjacency_create(struct pool *pool, const float (*position)[3],
 /// Corners tried for one edge: more at one place are a collapsed mesh.
 enum { CORNERS_MAX = 64 };
 
-struct corners {
-    uint32_t *spot;   ///< per vertex: the first one at its place
-    int *last, *many; ///< per such vertex: a corner there, and how many
-    int *before;      ///< per corner: the one before it at the same place, −1: none
-};
-
 /// Rounds places to a grid so fine that it joins only vertices meant to be one, such as the ends of a ring that differ by rounding.
 static float (*snap(struct pool *work, const float (*position)[3], int count))[3]
 {
@@ -152,22 +146,6 @@ static float (*snap(struct pool *work, const float (*position)[3], int count))[3
 
 static int corner_before(int i) { return i % 3 == 0 ? i + 2 : i - 1; }
 
-/// Finds the triangle across the edge from a corner. Tries the end with fewer corners, so that the centre of a large fan costs nothing.
-static int find_one(const struct corners *corners, const uint32_t *indices, int corner)
-{
-    const uint32_t from = corners->spot[indices[corner]], to = corners->spot[indices[next_corner(corner)]];
-    const uint32_t third = corners->spot[indices[corner_before(corner)]];
-    const bool at_end = corners->many[to] <= corners->many[from];
-    int back = NEIGHBOUR_NONE, other = corners->last[at_end ? to : from];
-    for (int n = 0; other >= 0 && n < CORNERS_MAX; n++, other = corners->before[other]) {
-        const int begins = at_end ? other : corner_before(other), ends = next_corner(begins);
-        if (corners->spot[indices[begins]] != to || corners->spot[indices[ends]] != from) continue;
-        if (corners->spot[indices[next_corner(ends)]] != third) return begins / 3;
-        back = begins / 3;
-    }
-    return back;
-}
-
 void neighbours_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count,
                      int *neighbours)
 {
@@ -175,20 +153,30 @@ void neighbours_find(const float (*position)[3], int vertex_count, const uint32_
     struct pool work = {0};
     float(*snapped)[3] = snap(&work, position, vertex_count);
     struct spot *spots = pool_take(&work, vertices, sizeof *spots);
-    struct corners corners = {pool_take(&work, vertices, sizeof *corners.spot),
-                              pool_take(&work, vertices, sizeof *corners.last),
-                              pool_take(&work, vertices, sizeof *corners.many),
-                              pool_take(&work, (size_t)index_count, sizeof *corners.before)};
+    uint32_t *spot = pool_take(&work, vertices, sizeof *spot); // per vertex: the first one at its place
+    int *last = pool_take(&work, vertices, sizeof *last);      // per such vertex: a corner there, and how many
+    int *many = pool_take(&work, vertices, sizeof *many);
+    int *before = pool_take(&work, (size_t)index_count, sizeof *before); // per corner: another there, −1: none
     spots_sort((const float(*)[3])snapped, vertex_count, spots);
-    spots_first(spots, vertex_count, corners.spot);
-    for (int v = 0; v < vertex_count; v++) corners.last[v] = -1;
+    spots_first(spots, vertex_count, spot);
+    for (int v = 0; v < vertex_count; v++) last[v] = -1;
     for (int i = 0; i < index_count; i++) {
-        const uint32_t spot = corners.spot[indices[i]];
-        corners.before[i] = corners.last[spot];
-        corners.last[spot] = i;
-        corners.many[spot]++;
+        before[i] = last[spot[indices[i]]];
+        last[spot[indices[i]]] = i;
+        many[spot[indices[i]]]++;
     }
-    for (int i = 0; i < index_count; i++) neighbours[i] = find_one(&corners, indices, i);
+    for (int i = 0; i < index_count; i++) {
+        // Tries the end with fewer corners, so that the centre of a large fan costs nothing.
+        const uint32_t from = spot[indices[i]], to = spot[indices[next_corner(i)]];
+        const bool at_end = many[to] <= many[from];
+        neighbours[i] = NEIGHBOUR_NONE;
+        for (int n = 0, other = last[at_end ? to : from]; other >= 0 && n < CORNERS_MAX; n++, other = before[other]) {
+            const int begins = at_end ? other : corner_before(other), ends = next_corner(begins);
+            if (spot[indices[begins]] != to || spot[indices[ends]] != from) continue;
+            neighbours[i] = begins / 3;
+            if (spot[indices[next_corner(ends)]] != spot[indices[corner_before(i)]]) break; // else its own back
+        }
+    }
     pool_free(&work);
 }
 

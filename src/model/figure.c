@@ -3,6 +3,7 @@
 #include "model/figure.h"
 #include "base/need.h"
 #include "maths/maths.h"
+#include "model/gltf.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
@@ -92,7 +93,6 @@ struct collapse {
 
 struct work {
     const struct character *character;
-    size_t vertex_count;
     uint32_t *indices, *sources;
     int index_count;
     int *first;   ///< of the vertex's triangles in `around`, per vertex and one more
@@ -123,25 +123,11 @@ static int ring_of(const struct work *work, uint32_t v, uint32_t ring[MAX_RING])
     return count;
 }
 
-/// The effect on a triangle of moving corner v to `to`: false if it folds over; else the surface's distance from v, metres.
-static bool moved_triangle(const struct work *work, const uint32_t corner[3], uint32_t v, uint32_t to,
-                           float *distance)
-{
-    float(*const p)[3] = work->character->position;
-    const float *moved[3];
-    for (int k = 0; k < 3; k++) moved[k] = p[corner[k] == v ? to : corner[k]];
-    const vec3s before = triangle_normal(p[corner[0]], p[corner[1]], p[corner[2]]);
-    const vec3s after = triangle_normal(moved[0], moved[1], moved[2]);
-    const float area = glms_vec3_norm(after);
-    if (!(glms_vec3_dot(before, after) > FLATTEST * area * glms_vec3_norm(before))) return false;
-    *distance = fabsf(glms_vec3_dot(glms_vec3_sub(vec3_from(p[v]), vec3_from(moved[0])), after)) / area;
-    return true;
-}
-
 /// INFINITY if v cannot collapse onto `to`: the surface would fold, or two sheets would meet (the two must share exactly the vertices of the
 /// triangles on their edge).
 static float cost_of(const struct work *work, uint32_t v, uint32_t to, const uint32_t *ring, int count)
 {
+    float(*const p)[3] = work->character->position;
     uint32_t other[MAX_RING];
     const int other_count = ring_of(work, to, other);
     int shared = 0;
@@ -150,15 +136,19 @@ static float cost_of(const struct work *work, uint32_t v, uint32_t to, const uin
     float largest = 0.0f, color = 0.0f;
     for (int a = work->first[v]; a < work->first[v + 1]; a++) {
         const uint32_t *corner = work->indices + 3 * work->around[a];
-        float distance;
         if (corner[0] == to || corner[1] == to || corner[2] == to) continue;
-        if (!moved_triangle(work, corner, v, to, &distance)) return INFINITY;
-        largest = fmaxf(largest, distance);
+        const float *moved[3];
+        for (int k = 0; k < 3; k++) moved[k] = p[corner[k] == v ? to : corner[k]];
+        const vec3s before = triangle_normal(p[corner[0]], p[corner[1]], p[corner[2]]);
+        const vec3s after = triangle_normal(moved[0], moved[1], moved[2]);
+        const float area = glms_vec3_norm(after);
+        if (!(glms_vec3_dot(before, after) > FLATTEST * area * glms_vec3_norm(before))) return INFINITY;
+        const vec3s way = glms_vec3_sub(vec3_from(p[v]), vec3_from(moved[0]));
+        largest = fmaxf(largest, fabsf(glms_vec3_dot(way, after)) / area); // the surface's distance from v
     }
     for (int k = 0; k < 3; k++)
         color = fmaxf(color, fabsf(work->character->color[v][k] - work->character->color[to][k]));
-    const vec3s from = vec3_from(work->character->position[v]), onto = vec3_from(work->character->position[to]);
-    return largest + COLOR_WEIGHT * color + 0.02f * glms_vec3_distance(from, onto);
+    return largest + COLOR_WEIGHT * color + 0.02f * glms_vec3_distance(vec3_from(p[v]), vec3_from(p[to]));
 }
 
 static int compare_collapses(const void *a, const void *b)
@@ -168,89 +158,74 @@ static int compare_collapses(const void *a, const void *b)
     return x->from < y->from ? -1 : x->from > y->from;
 }
 
-/// One round of at most `most` collapses, each removing two triangles; returns how many there were.
-static int collapse_round(struct work *work, int most)
-{
-    const int vertices = work->character->vertex_count;
-    memset(work->first, 0, ((size_t)vertices + 2) * sizeof *work->first);
-    for (int i = 0; i < work->index_count; i++) work->first[work->indices[i] + 2]++;
-    for (int v = 0; v < vertices; v++) work->first[v + 2] += work->first[v + 1];
-    for (int i = 0; i < work->index_count; i++) work->around[work->first[work->indices[i] + 1]++] = i / 3;
-    memset(work->locked, 0, work->vertex_count * sizeof *work->locked);
-
-    int found = 0, done = 0;
-    for (int v = 0; v < vertices; v++) {
-        uint32_t ring[MAX_RING];
-        const int count = ring_of(work, (uint32_t)v, ring);
-        struct collapse best = {(uint32_t)v, 0, INFINITY};
-        for (int i = 0; i < count; i++) {
-            const float cost = cost_of(work, (uint32_t)v, ring[i], ring, count);
-            if (cost < best.cost) best.to = ring[i], best.cost = cost;
-        }
-        if (best.cost < INFINITY) work->collapses[found++] = best;
-    }
-    qsort(work->collapses, (size_t)found, sizeof *work->collapses, compare_collapses);
-    for (int i = 0; i < found && done < most; i++) {
-        const uint32_t from = work->collapses[i].from, to = work->collapses[i].to;
-        uint32_t ring[MAX_RING], other[MAX_RING];
-        const int count = ring_of(work, from, ring), other_count = ring_of(work, to, other);
-        bool free = !work->locked[from] && !work->locked[to];
-        for (int k = 0; k < count; k++) free = free && !work->locked[ring[k]];
-        for (int k = 0; k < other_count; k++) free = free && !work->locked[other[k]];
-        if (!free) continue;
-
-        // Its triangles move over, and everything around is locked, so that the round's other costs stay valid.
-        for (int k = 0; k < count; k++) work->locked[ring[k]] = true;
-        for (int k = 0; k < other_count; k++) work->locked[other[k]] = true;
-        for (int a = work->first[from]; a < work->first[from + 1]; a++) {
-            uint32_t *corner = work->indices + 3 * work->around[a];
-            for (int k = 0; k < 3; k++) {
-                if (corner[k] == from) corner[k] = to;
-            }
-        }
-        done++;
-    }
-
-    int kept = 0; // without those that have become flat
-    for (int t = 0; t < work->index_count; t += 3) {
-        if (triangle_repeats(work->indices + t)) continue;
-        if (work->sources) work->sources[kept / 3] = work->sources[t / 3];
-        for (int k = 0; k < 3; k++) work->indices[kept++] = work->indices[t + k];
-    }
-    work->index_count = kept;
-    return done;
-}
-
 void decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
               int *index_count)
 {
-    const size_t vertices = (size_t)character->vertex_count, count = (size_t)character->index_count;
-    struct work work = {.character = character,
-                        .vertex_count = vertices,
-                        .indices = indices,
-                        .sources = sources,
-                        .index_count = character->index_count};
+    const size_t vertices = (size_t)character->vertex_count, corners = (size_t)character->index_count;
+    struct work work = {
+        .character = character, .indices = indices, .sources = sources, .index_count = character->index_count};
     struct pool pool = {0};
     work.first = pool_take(&pool, vertices + 2, sizeof *work.first);
-    work.around = pool_take(&pool, count, sizeof *work.around);
+    work.around = pool_take(&pool, corners, sizeof *work.around);
     work.locked = pool_take(&pool, vertices, sizeof *work.locked);
     work.collapses = pool_take(&pool, vertices, sizeof *work.collapses);
-    memcpy(indices, character->indices, count * sizeof *indices);
-    for (uint32_t t = 0; sources && t < (uint32_t)count / 3; t++) sources[t] = t;
+    memcpy(indices, character->indices, corners * sizeof *indices);
+    for (uint32_t t = 0; sources && t < (uint32_t)corners / 3; t++) sources[t] = t;
     for (int round = 0; round < MAX_ROUNDS && work.index_count > 3 * triangles; round++) {
-        if (collapse_round(&work, (work.index_count / 3 - triangles + 1) / 2) == 0) break;
+        const int most = (work.index_count / 3 - triangles + 1) / 2; // collapses: each removes two triangles
+        memset(work.first, 0, (vertices + 2) * sizeof *work.first);
+        for (int i = 0; i < work.index_count; i++) work.first[work.indices[i] + 2]++;
+        for (size_t v = 0; v < vertices; v++) work.first[v + 2] += work.first[v + 1];
+        for (int i = 0; i < work.index_count; i++) work.around[work.first[work.indices[i] + 1]++] = i / 3;
+        memset(work.locked, 0, vertices * sizeof *work.locked);
+
+        int found = 0, done = 0;
+        for (int v = 0; v < character->vertex_count; v++) {
+            uint32_t ring[MAX_RING];
+            const int count = ring_of(&work, (uint32_t)v, ring);
+            struct collapse best = {(uint32_t)v, 0, INFINITY};
+            for (int i = 0; i < count; i++) {
+                const float cost = cost_of(&work, (uint32_t)v, ring[i], ring, count);
+                if (cost < best.cost) best.to = ring[i], best.cost = cost;
+            }
+            if (best.cost < INFINITY) work.collapses[found++] = best;
+        }
+        qsort(work.collapses, (size_t)found, sizeof *work.collapses, compare_collapses);
+        for (int i = 0; i < found && done < most; i++) {
+            const uint32_t from = work.collapses[i].from, to = work.collapses[i].to;
+            uint32_t ring[MAX_RING], other[MAX_RING];
+            const int count = ring_of(&work, from, ring), other_count = ring_of(&work, to, other);
+            bool free = !work.locked[from] && !work.locked[to];
+            for (int k = 0; k < count; k++) free = free && !work.locked[ring[k]];
+            for (int k = 0; k < other_count; k++) free = free && !work.locked[other[k]];
+            if (!free) continue;
+
+            // Its triangles move over, and everything around is locked, so that the round's other costs stay valid.
+            for (int k = 0; k < count; k++) work.locked[ring[k]] = true;
+            for (int k = 0; k < other_count; k++) work.locked[other[k]] = true;
+            for (int a = work.first[from]; a < work.first[from + 1]; a++) {
+                uint32_t *corner = work.indices + 3 * work.around[a];
+                for (int k = 0; k < 3; k++) {
+                    if (corner[k] == from) corner[k] = to;
+                }
+            }
+            done++;
+        }
+
+        int kept = 0; // without those that have become flat
+        for (int t = 0; t < work.index_count; t += 3) {
+            if (triangle_repeats(work.indices + t)) continue;
+            if (work.sources) work.sources[kept / 3] = work.sources[t / 3];
+            for (int k = 0; k < 3; k++) work.indices[kept++] = work.indices[t + k];
+        }
+        work.index_count = kept;
+        if (done == 0) break;
     }
     *index_count = work.index_count;
     pool_free(&pool);
 }
 
 // --- the figure
-
-static uint64_t new_id(void)
-{
-    static uint64_t made;
-    return ++made;
-}
 
 void figure_derive(struct figure *figure)
 {
@@ -324,7 +299,7 @@ bool figure_has_room(const struct character *character)
 
 void figure_create(struct figure *figure, struct character *character)
 {
-    *figure = (struct figure){.character = *character, .id = new_id()};
+    *figure = (struct figure){.character = *character, .id = gltf_new_id()};
     *character = (struct character){0};
     figure_derive(figure);
 
@@ -427,7 +402,7 @@ struct painted *painted_create(const struct figure *plain)
     const size_t coordinates = (size_t)plain->character.coordinate_count;
     painted->plain = plain;
     *figure = *plain;
-    figure->id = new_id();
+    figure->id = gltf_new_id();
     figure->version = 1;
     *pool = (struct pool){0};
     figure->slopes = pool_take(pool, vertices * coordinates, sizeof *figure->slopes);
@@ -456,28 +431,16 @@ void painted_destroy(struct painted *painted)
     free(painted);
 }
 
-/// Ñ' = Ñ e^{a + jψ} at one vertex; marks its slopes and its neighbours' as out of date.
-static void turn(struct painted *painted, int coordinate, int vertex, const float value[2])
-{
-    const struct coordinate *from = &painted->plain->character.coordinates[coordinate];
-    struct coordinate *to = &painted->figure.character.coordinates[coordinate];
-    const struct adjacency *edges = &painted->figure.edges;
-    const float size = maths_expf(value[0]), re = size * maths_cosf(value[1]), im = size * maths_sinf(value[1]);
-    for (int k = 0; k < 3; k++) {
-        to->re[vertex][k] = re * from->re[vertex][k] - im * from->im[vertex][k];
-        to->im[vertex][k] = re * from->im[vertex][k] + im * from->re[vertex][k];
-    }
-    painted->stale[vertex] = true;
-    for (int e = edges->first[vertex]; e < edges->first[vertex + 1]; e++) painted->stale[edges->other[e]] = true;
-}
-
 void painted_update(struct painted *painted, const float (*paint)[2])
 {
     struct figure *figure = &painted->figure;
     const int vertices = figure->character.vertex_count;
+    const struct adjacency *edges = &figure->edges;
     const uint64_t next = figure->version + 1;
     for (int k = 0; k < figure->character.coordinate_count; k++) {
         static const float none[2];
+        const struct coordinate *from = &painted->plain->character.coordinates[k];
+        struct coordinate *to = &figure->character.coordinates[k];
         bool any = false;
         for (int i = 0; i < vertices; i++) {
             const size_t at = (size_t)k * (size_t)vertices + (size_t)i;
@@ -485,8 +448,17 @@ void painted_update(struct painted *painted, const float (*paint)[2])
             float *applied = painted->applied[at];
             if (applied[0] == value[0] && applied[1] == value[1]) continue;
             memcpy(applied, value, sizeof painted->applied[at]);
-            turn(painted, k, i, value);
             any = true;
+
+            // Ñ' = Ñ e^{a + jψ}; its slopes and its neighbours' are out of date.
+            const float size = maths_expf(value[0]), re = size * maths_cosf(value[1]),
+                        im = size * maths_sinf(value[1]);
+            for (int c = 0; c < 3; c++) {
+                to->re[i][c] = re * from->re[i][c] - im * from->im[i][c];
+                to->im[i][c] = re * from->im[i][c] + im * from->re[i][c];
+            }
+            painted->stale[i] = true;
+            for (int e = edges->first[i]; e < edges->first[i + 1]; e++) painted->stale[edges->other[e]] = true;
         }
         for (int i = 0; any && i < vertices; i++) {
             if (!painted->stale[i]) continue;
@@ -519,21 +491,6 @@ static void put(struct reach *reach, int at, int vertex)
 {
     reach->heap[at] = vertex;
     reach->place[vertex] = at;
-}
-
-static void sift_down(struct reach *reach, int vertex)
-{
-    int at = reach->place[vertex];
-    for (;;) {
-        int child = 2 * at + 1;
-        if (child >= reach->heap_count) break;
-        if (child + 1 < reach->heap_count && reach->along[reach->heap[child + 1]] < reach->along[reach->heap[child]])
-            child++;
-        if (reach->along[vertex] <= reach->along[reach->heap[child]]) break;
-        put(reach, at, reach->heap[child]);
-        at = child;
-    }
-    put(reach, at, vertex);
 }
 
 /// Offers a path of that length to a vertex.
@@ -574,10 +531,14 @@ void reach_find(struct reach *reach, const struct figure *figure, const struct s
     }
     while (reach->heap_count > 0 && SHORTER * reach->along[reach->heap[0]] <= limit) {
         const int vertex = reach->heap[0], last = reach->heap[--reach->heap_count];
-        if (reach->heap_count > 0) {
-            put(reach, 0, last);
-            sift_down(reach, last);
+        int hole = 0; // the last sinks from the top to its place in the heap
+        for (int child; (child = 2 * hole + 1) < reach->heap_count; hole = child) {
+            const int *heap = reach->heap;
+            if (child + 1 < reach->heap_count && reach->along[heap[child + 1]] < reach->along[heap[child]]) child++;
+            if (reach->along[last] <= reach->along[heap[child]]) break;
+            put(reach, hole, heap[child]);
         }
+        if (reach->heap_count > 0) put(reach, hole, last);
         const float along = reach->along[vertex];
         reach->vertices[reach->count++] = vertex;
         float straight = INFINITY; // the shortest line from a spot

@@ -43,36 +43,36 @@ static bool read_json(struct glb *glb, const char *text, size_t length, struct e
     return true;
 }
 
-static bool read_chunks(struct glb *glb, size_t size, struct error *error)
-{
-    bool is_glb = size >= HEADER + CHUNK_HEADER && word_at(glb->data) == GLB_MAGIC && word_at(glb->data + 4) == 2;
-    if (!is_glb) return expected(glb, "a binary glTF 2.0 file (.glb)", error);
-    size_t length = word_at(glb->data + HEADER), end = HEADER + CHUNK_HEADER + length;
-    if (word_at(glb->data + 8) > size || end > size)
-        return fail(error, ERROR_INPUT, "%s: expected a file of %u bytes, got %zu: the file is cut off", glb->path,
-                    word_at(glb->data + 8), size);
-    if (word_at(glb->data + HEADER + 4) != GLB_JSON) return expected(glb, "JSON in the first chunk", error);
-    if (end + CHUNK_HEADER <= size && word_at(glb->data + end + 4) == GLB_BIN) {
-        struct glb_bytes *chunk = &glb->chunk;
-        *chunk = (struct glb_bytes){(const unsigned char *)glb->data + end + CHUNK_HEADER, word_at(glb->data + end)};
-        if (chunk->size > size - end - CHUNK_HEADER) return expected(glb, "a binary chunk as long as it says", error);
-    }
-    return read_json(glb, glb->data + HEADER + CHUNK_HEADER, length, error);
-}
-
 bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error)
 {
     *glb = (struct glb){.path = path, .data = data, .room = GLB_ROOM + GLB_GROWTH * size};
     progress_report("reading a glTF file", 0, (long)size);
-    const bool binary = size >= 4 && word_at(data) == GLB_MAGIC;
-    bool parsed =
+    const char *text = data;
+    size_t length = size;
+    bool good =
         !path_has_end(path, ".fbx") ||
         fail(error, ERROR_INPUT,
              "%s: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it", path);
-    parsed = parsed && (binary ? read_chunks(glb, size, error) : read_json(glb, data, size, error));
-    if (parsed && (json_is_object(glb->json) || expected(glb, "a JSON object", error))) return true;
-    glb_close(glb);
-    return false;
+    if (good && size >= 4 && word_at(data) == GLB_MAGIC) {
+        enum { START = HEADER + CHUNK_HEADER };
+        good = (size >= START && word_at(data + 4) == 2) || expected(glb, "a binary glTF 2.0 file (.glb)", error);
+        text = data + START;
+        length = good ? word_at(data + HEADER) : 0;
+        const size_t end = START + length;
+        if (good && (word_at(data + 8) > size || end > size))
+            good = fail(error, ERROR_INPUT, "%s: expected a file of %u bytes, got %zu: the file is cut off", path,
+                        word_at(data + 8), size);
+        if (good && word_at(data + HEADER + 4) != GLB_JSON) good = expected(glb, "JSON in the first chunk", error);
+        if (good && end + CHUNK_HEADER <= size && word_at(data + end + 4) == GLB_BIN) {
+            glb->chunk = (struct glb_bytes){(const unsigned char *)data + end + CHUNK_HEADER, word_at(data + end)};
+            good = glb->chunk.size <= size - end - CHUNK_HEADER ||
+                   expected(glb, "a binary chunk as long as it says", error);
+        }
+    }
+    good = good && read_json(glb, text, length, error) &&
+           (json_is_object(glb->json) || expected(glb, "a JSON object", error));
+    if (!good) glb_close(glb);
+    return good;
 }
 
 bool glb_open(struct glb *glb, const char *path, struct error *error)
@@ -210,24 +210,6 @@ static bool find_elements(const struct glb *glb, const json_t *place, int64_t co
     return true;
 }
 
-/// Applies a sparse accessor's changes.
-static bool apply_sparse(const struct glb *glb, const json_t *sparse, struct elements *values,
-                         struct glb_numbers *numbers)
-{
-    const json_t *places = json_object_get(sparse, "indices");
-    int64_t count = glb_integer(sparse, "count", -1);
-    struct elements indices = {.type = (enum number_type)glb_integer(places, "componentType", -1), .components = 1};
-    if (count < 0 || count > numbers->count || !find_elements(glb, places, count, &indices)) return false;
-    if (!find_elements(glb, json_object_get(sparse, "values"), count, values)) return false;
-    for (int i = 0; i < (int)count; i++) {
-        double index = element_at(&indices, i, 0);
-        if (!(index >= 0 && index < numbers->count)) return false;
-        double *element = numbers->values + (size_t)index * (size_t)numbers->components;
-        for (int k = 0; k < numbers->components; k++) element[k] = element_at(values, i, k);
-    }
-    return true;
-}
-
 static int components_of(const json_t *accessor)
 {
     static const struct {
@@ -280,7 +262,17 @@ bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbe
     for (size_t n = 0; e.bytes && n < total; n++) // without a buffer view (and bytes) all are zero
         numbers->values[n] = element_at(&e, (int)(n / (size_t)e.components), (int)(n % (size_t)e.components));
     const json_t *sparse = json_object_get(accessor, "sparse");
-    const bool read = !sparse || apply_sparse(glb, sparse, &e, numbers);
+    const json_t *places = json_object_get(sparse, "indices");
+    const int64_t changes = sparse ? glb_integer(sparse, "count", -1) : 0;
+    struct elements indices = {.type = (enum number_type)glb_integer(places, "componentType", -1), .components = 1};
+    bool read = !sparse || (changes >= 0 && changes <= count && find_elements(glb, places, changes, &indices) &&
+                            find_elements(glb, json_object_get(sparse, "values"), changes, &e));
+    for (int i = 0; read && i < (int)changes; i++) {
+        const double at = element_at(&indices, i, 0);
+        read = at >= 0 && at < numbers->count;
+        for (int k = 0; read && k < e.components; k++)
+            numbers->values[(size_t)at * (size_t)e.components + (size_t)k] = element_at(&e, i, k);
+    }
     bool finite = read;
     for (size_t n = 0; finite && n < total; n++) finite = isfinite(numbers->values[n]);
     if (finite) return true;
@@ -452,21 +444,6 @@ static bool decode(const json_t *packed, struct glb_bytes from, size_t count, si
 #endif
 }
 
-/// The decompressed bytes of a view, which the caller frees; NULL if there are none.
-static void *bytes_of(struct unpacking *u, const json_t *view, size_t *size)
-{
-    const json_t *packed = extension_of(view, meshopt);
-    const int64_t count = glb_integer(packed, "count", -1), stride = glb_integer(packed, "byteStride", -1);
-    struct glb_bytes from;
-    if (!glb_bytes(u->glb, packed ? packed : view, &from) || (packed && (count < 1 || stride < 1))) return NULL;
-    *size = packed ? (size_t)(count * stride) : from.size;
-    void *bytes = allocate(u, *size, 1);
-    if (bytes && !packed) return memcpy(bytes, from.at, *size);
-    if (bytes && decode(packed, from, (size_t)count, (size_t)stride, bytes)) return bytes;
-    free(bytes);
-    return NULL;
-}
-
 static void drop_names(json_t *root, const char *array)
 {
     json_t *names = json_object_get(root, array);
@@ -503,9 +480,16 @@ static bool unpack(struct glb *glb, struct error *error)
     }
     for (size_t i = 0; done && i < u.view_count; i++) {
         json_t *view = json_array_get(u.plain.views, i);
-        size_t size;
-        void *bytes = u.is_spent[i] ? NULL : bytes_of(&u, view, &size);
-        if (bytes) {
+        const json_t *packed = extension_of(view, meshopt);
+        const int64_t count = glb_integer(packed, "count", -1), stride = glb_integer(packed, "byteStride", -1);
+        struct glb_bytes from;
+        const bool is_there = !u.is_spent[i] && glb_bytes(glb, packed ? packed : view, &from) &&
+                              (!packed || (count >= 1 && stride >= 1));
+        const size_t size = !is_there ? 0 : packed ? (size_t)(count * stride) : from.size;
+        void *bytes = is_there ? allocate(&u, size, 1) : NULL;
+        if (bytes && !packed) memcpy(bytes, from.at, size);
+        const bool unpacked = bytes && (!packed || decode(packed, from, (size_t)count, (size_t)stride, bytes));
+        if (unpacked) {
             gltf_set(&u.plain, view, "buffer", json_integer(0));
             gltf_set(&u.plain, view, "byteOffset", json_integer((json_int_t)gltf_file_append(&u.plain, bytes, size)));
             gltf_set(&u.plain, view, "byteLength", json_integer((json_int_t)size));

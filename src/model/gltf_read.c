@@ -270,51 +270,6 @@ static bool read_vertices(struct gltf_reader *r, const json_t *primitive, int ta
     return part->targets;
 }
 
-/// Triangles in the file's order; without indices, in order of vertices. Those that name a vertex twice, with which strips jump, are left out.
-static bool read_triangles(struct gltf_reader *r, const json_t *primitive, int mode, struct gltf_part *part)
-{
-    const int vertices = part->vertex_count;
-    struct glb_numbers numbers = {.count = vertices, .components = 1};
-    uint32_t *corners = NULL;
-    bool indexed = json_object_get(primitive, "indices"), good;
-    if (indexed && !glb_numbers(&r->file, glb_integer(primitive, "indices", -1), &numbers, r->error)) return false;
-    good = numbers.components == 1 || gltf_bad(r, ".indices: expected one number each, got %d", numbers.components);
-    if (good) corners = gltf_make(r, (size_t)numbers.count, sizeof *corners);
-    good = good && corners;
-    for (int i = 0; good && i < numbers.count; i++) {
-        double index = indexed ? numbers.values[i] : i;
-        good = (index >= 0 && index < vertices && index == floor(index)) ||
-               gltf_bad(r, ".indices: expected numbers from 0 to %d, got %g at place %d", vertices - 1, index, i);
-        if (good) corners[i] = (uint32_t)index;
-    }
-    free(numbers.values);
-    if (!good) return false;
-
-    part->indices = corners;
-    part->index_count = numbers.count - numbers.count % 3;
-    if (mode != TRIANGLES) { // strips and fans, oriented as glTF requires
-        const int triangles = numbers.count > 2 ? numbers.count - 2 : 0;
-        part->indices = gltf_make(r, (size_t)triangles, 3 * sizeof *part->indices);
-        part->index_count = 3 * triangles;
-        if (!part->indices) return false;
-        for (int i = 0; i < triangles; i++) {
-            const int second = mode == FAN ? i + 2 : i + 1 + i % 2, third = mode == FAN ? 0 : i + 2 - i % 2;
-            part->indices[3 * i] = corners[mode == FAN ? i + 1 : i];
-            part->indices[3 * i + 1] = corners[second];
-            part->indices[3 * i + 2] = corners[third];
-        }
-    }
-
-    int kept = 0;
-    for (int i = 0; i + 2 < part->index_count; i += 3) {
-        if (triangle_repeats(part->indices + i)) continue;
-        memmove(part->indices + kept, part->indices + i, 3 * sizeof *part->indices);
-        kept += 3;
-    }
-    part->index_count = kept;
-    return true;
-}
-
 /// Reads a primitive; `like` is the mesh's first part or NULL, whose vertices it may share. A part without triangles is listed as not shown.
 static bool read_part(struct gltf_reader *r, const json_t *primitive, const json_t *like, struct gltf_mesh *mesh,
                       struct gltf_part *part)
@@ -341,7 +296,45 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
     part->vertex_count = (int)count;
 
     if (!gltf_index(r, primitive, "material", r->gltf->material_count, &part->material)) return false;
-    if (!read_triangles(r, primitive, (int)mode, part)) return false;
+
+    // Triangles in the file's order; without indices, in order of vertices.
+    struct glb_numbers numbers = {.count = part->vertex_count, .components = 1};
+    const bool indexed = json_object_get(primitive, "indices");
+    if (indexed && !glb_numbers(&r->file, glb_integer(primitive, "indices", -1), &numbers, r->error)) return false;
+    bool good =
+        numbers.components == 1 || gltf_bad(r, ".indices: expected one number each, got %d", numbers.components);
+    uint32_t *corners = good ? gltf_make(r, (size_t)numbers.count, sizeof *corners) : NULL;
+    good = corners;
+    for (int i = 0; good && i < numbers.count; i++) {
+        const double index = indexed ? numbers.values[i] : i;
+        good = (index >= 0 && index < (double)count && index == floor(index)) ||
+               gltf_bad(r, ".indices: expected numbers from 0 to %d, got %g at place %d", part->vertex_count - 1,
+                        index, i);
+        if (good) corners[i] = (uint32_t)index;
+    }
+    free(numbers.values);
+    if (!good) return false;
+    part->indices = corners;
+    part->index_count = numbers.count - numbers.count % 3;
+    if (mode != TRIANGLES) { // strips and fans, oriented as glTF requires
+        const int triangles = numbers.count > 2 ? numbers.count - 2 : 0;
+        part->indices = gltf_make(r, (size_t)triangles, 3 * sizeof *part->indices);
+        part->index_count = 3 * triangles;
+        if (!part->indices) return false;
+        for (int i = 0; i < triangles; i++) {
+            const int second = mode == FAN ? i + 2 : i + 1 + i % 2, third = mode == FAN ? 0 : i + 2 - i % 2;
+            part->indices[3 * i] = corners[mode == FAN ? i + 1 : i];
+            part->indices[3 * i + 1] = corners[second];
+            part->indices[3 * i + 2] = corners[third];
+        }
+    }
+    int kept = 0; // those that name a vertex twice, with which strips jump, are left out
+    for (int i = 0; i + 2 < part->index_count; i += 3) {
+        if (triangle_repeats(part->indices + i)) continue;
+        memmove(part->indices + kept, part->indices + i, 3 * sizeof *part->indices);
+        kept += 3;
+    }
+    part->index_count = kept;
     if (part->index_count == 0) return gltf_not_shown(r, "triangles without area");
     part->has_polygons = json_object_get(extensions, GLTF_POLYGONS);
     if (like && json_equal(attributes, json_object_get(like, "attributes")) &&
@@ -445,29 +438,6 @@ static bool read_meshes(struct gltf_reader *r)
 
 static const float SHEARED = 1e-4f; ///< cosine between columns of a matrix that is no move, turn and scale
 
-/// Splits a matrix into a move, a turn and a scale, as other programs do, so that clips and chains can move the node. A sheared or flat matrix
-/// stays one.
-static void decompose(struct gltf_node *node)
-{
-    mat3s turn = glms_mat4_pick3(mat4_from(node->matrix));
-    struct gltf_place place;
-    for (int k = 0; k < 3; k++) {
-        place.translation[k] = node->matrix[12 + k];
-        place.scale[k] = glms_vec3_norm(turn.col[k]);
-        if (node->matrix[4 * k + 3] != 0 || !(place.scale[k] > 0) || !isfinite(place.scale[k])) return;
-    }
-    if (node->matrix[15] != 1) return;
-    if (glms_mat3_det(turn) < 0) place.scale[0] = -place.scale[0];
-    for (int k = 0; k < 3; k++) turn.col[k] = glms_vec3_divs(turn.col[k], place.scale[k]);
-    for (int k = 0; k < 3; k++) {
-        if (!(fabsf(glms_vec3_dot(turn.col[k], turn.col[(k + 1) % 3])) < SHEARED)) return;
-    }
-    const versors q = glms_quat_normalize(glms_mat3_quat(turn));
-    memcpy(place.rotation, q.raw, sizeof place.rotation);
-    node->place = place;
-    node->has_matrix = false;
-}
-
 /// An element of an array of node indices.
 static bool read_member(struct gltf_reader *r, const json_t *element, const char *key, size_t i, int *node)
 {
@@ -537,7 +507,26 @@ static bool read_nodes(struct gltf_reader *r)
         if (!(length > 0) || !isfinite(length))
             return gltf_bad(r, ".rotation: expected a unit quaternion, got another");
         for (k = 0; k < 4; k++) q[k] /= length;
-        if (node->has_matrix) decompose(node);
+
+        // Other programs split a matrix into a move, a turn and a scale, so that clips and chains can move the node. A sheared or flat one
+        // stays a matrix.
+        mat3s turn = glms_mat4_pick3(mat4_from(node->matrix));
+        struct gltf_place place;
+        bool splits = node->has_matrix && node->matrix[15] == 1;
+        for (k = 0; splits && k < 3; k++) {
+            place.translation[k] = node->matrix[12 + k];
+            place.scale[k] = glms_vec3_norm(turn.col[k]);
+            splits = node->matrix[4 * k + 3] == 0 && place.scale[k] > 0 && isfinite(place.scale[k]);
+        }
+        if (splits && glms_mat3_det(turn) < 0) place.scale[0] = -place.scale[0];
+        for (k = 0; splits && k < 3; k++) turn.col[k] = glms_vec3_divs(turn.col[k], place.scale[k]);
+        for (k = 0; splits && k < 3; k++) splits = fabsf(glms_vec3_dot(turn.col[k], turn.col[(k + 1) % 3])) < SHEARED;
+        if (splits) {
+            const versors own = glms_quat_normalize(glms_mat3_quat(turn));
+            memcpy(place.rotation, own.raw, sizeof place.rotation);
+            node->place = place;
+            node->has_matrix = false;
+        }
         if (!gltf_index(r, json, "mesh", gltf->mesh_count, &node->mesh) ||
             !gltf_index(r, json, "skin", (int)json_array_size(gltf_array(r, "skins")), &node->skin))
             return false;
@@ -671,26 +660,10 @@ static float *read_floats(struct gltf_reader *r, const json_t *sampler, const ch
     return values;
 }
 
-/// The channel's target; false if it does not exist or is not animated here.
-static bool find_target(const struct gltf *gltf, const char *path, struct gltf_channel *channel)
-{
-    static const char *const names[] = {"translation", "rotation", "scale", "weights"};
-    static const int components[] = {3, 4, 3, 0};
-    const struct gltf_node *node = &gltf->nodes[channel->node];
-    for (int i = 0; path && i < 4; i++) {
-        if (strcmp(path, names[i]) != 0) continue;
-        channel->path = (enum gltf_path)i;
-        channel->components = components[i];
-        if (i != GLTF_WEIGHTS) return !node->has_matrix;
-        channel->components = node->mesh >= 0 ? gltf->meshes[node->mesh].target_count : 0;
-        return channel->components > 0;
-    }
-    return false;
-}
-
 static bool read_clips(struct gltf_reader *r)
 {
     static const char *const names[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+    static const char *const paths[] = {"translation", "rotation", "scale", "weights"}; // as in enum gltf_path
     const json_t *clips = gltf_array(r, "animations"), *json, *channel;
     size_t i, k;
     gltf_at(r, "animations");
@@ -713,11 +686,19 @@ static bool read_clips(struct gltf_reader *r)
             *to = (struct gltf_channel){0};
             if (!gltf_index(r, target, "node", r->gltf->node_count, &to->node)) return false;
             if (to->node < 0) continue;
-            if (!find_target(r->gltf, json_string_value(json_object_get(target, "path")), to)) {
-                const bool stays = r->gltf->nodes[to->node].has_matrix && to->components > 0;
-                if (stays && !gltf_not_shown(r, "clips of nodes with sheared matrices")) return false;
+            const struct gltf_node *node = &r->gltf->nodes[to->node];
+            const char *path = json_string_value(json_object_get(target, "path"));
+            int p = path ? 0 : 4;
+            while (p < 4 && strcmp(path, paths[p]) != 0) p++;
+            if (p == 4) continue;
+            to->path = (enum gltf_path)p;
+            to->components = p == GLTF_ROTATION ? 4 : 3;
+            if (p == GLTF_WEIGHTS) to->components = node->mesh >= 0 ? r->gltf->meshes[node->mesh].target_count : 0;
+            if (node->has_matrix && p != GLTF_WEIGHTS) {
+                if (!gltf_not_shown(r, "clips of nodes with sheared matrices")) return false;
                 continue;
             }
+            if (to->components == 0) continue;
             if (!gltf_index(r, channel, "sampler", (int)json_array_size(samplers), &sampler)) return false;
             if (sampler < 0) return gltf_bad(r, ".sampler: expected a sampler, got none");
             gltf_at(r, "animations[%zu].samplers[%d]", i, sampler);

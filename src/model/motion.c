@@ -53,36 +53,7 @@ static bool set_layout(struct motion *m, int64_t size, struct error *error)
                 m->path, m->frames, m->vertices, (long long)(room > 0 ? room : 0));
 }
 
-// --- NumPy's .npy: an array of shape (frames, vertices, 3) or (frames, 3 vertices)
-
-static bool read_npy_header(struct motion *m, int64_t size, struct error *error)
-{
-    char start[NPY_START + NPY_DICTIONARY];
-    struct npy npy;
-    const size_t there = size < (int64_t)sizeof start ? (size_t)size : sizeof start;
-    if (!read_at(m, 0, start, there, error) || !npy_read_header(&npy, m->path, start, there, error)) return false;
-    m->data = npy.data;
-    m->swapped = npy.swapped;
-    m->number_size = npy.number_size;
-    const bool flat = npy.count == 2 && npy.lengths[1] % 3 == 0;
-    if (!flat && !(npy.count == 3 && npy.lengths[2] == 3))
-        return fail(error, ERROR_INPUT, "%s: expected an array of shape (frames, vertices, 3), got %s", m->path,
-                    npy.shape);
-    if (!set_counts(m, npy.lengths[0], flat ? npy.lengths[1] / 3 : npy.lengths[1], error) ||
-        !set_layout(m, size, error))
-        return false;
-
-    // Fortran order: the first index runs fastest. In (frames, 3 vertices), vertex and coordinate are one index in which the coordinate runs
-    // faster.
-    const int64_t column = (int64_t)m->number_size * m->frames;
-    m->columns_first = npy.columns_first;
-    if (!m->columns_first) return true;
-    m->strides[1] = flat ? 3 * column : column;
-    m->strides[2] = flat ? column : column * m->vertices;
-    return true;
-}
-
-// --- the point caches PC2 and MDD
+// --- NumPy's .npy, an array of shape (frames, vertices, 3) or (frames, 3 vertices), and the point caches PC2 and MDD
 //
 //     PC2, little endian                          MDD, big endian
 //     0   char[12]  "POINTCACHE2\0"               0   int32    frames F
@@ -93,33 +64,6 @@ static bool read_npy_header(struct motion *m, int64_t size, struct error *error)
 //     28  int32     samples
 //     then float32 x y z of each point of each frame, in both
 
-static int32_t big_endian(const unsigned char b[4])
-{
-    return (int32_t)((uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3]);
-}
-
-static double time_at(const unsigned char *times, int frame)
-{
-    int32_t bits = big_endian(times + 4 * (size_t)frame);
-    float time;
-    memcpy(&time, &bits, sizeof time);
-    return (double)time;
-}
-
-/// Frames per second if the times are equally spaced to a hundredth of a step (they are floats); else 0.
-static double fps_of_times(const unsigned char *times, int frames)
-{
-    double first = time_at(times, 0), step = (time_at(times, frames - 1) - first) / (frames - 1);
-    if (!(step > 0) || !isfinite(step)) return 0;
-    for (int i = 1; i < frames - 1; i++) {
-        if (!(fabs(time_at(times, i) - first - i * step) <= 0.01 * step)) return 0;
-    }
-    double fps = 1 / step, whole = round(fps);
-    return fabs(fps - whole) < 1e-4 * fps ? whole : fps;
-}
-
-// --- all formats
-
 static bool read_header(struct motion *m, int64_t size, struct error *error)
 {
     char start[sizeof pc2_magic] = {0};
@@ -127,7 +71,31 @@ static bool read_header(struct motion *m, int64_t size, struct error *error)
         return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got a file of %lld bytes",
                     m->path, (long long)size);
     if (!read_at(m, 0, start, sizeof start, error)) return false;
-    if (memcmp(start, npy_magic, sizeof npy_magic) == 0) return read_npy_header(m, size, error);
+    if (memcmp(start, npy_magic, sizeof npy_magic) == 0) {
+        char head[NPY_START + NPY_DICTIONARY];
+        struct npy npy;
+        const size_t there = size < (int64_t)sizeof head ? (size_t)size : sizeof head;
+        if (!read_at(m, 0, head, there, error) || !npy_read_header(&npy, m->path, head, there, error)) return false;
+        m->data = npy.data;
+        m->swapped = npy.swapped;
+        m->number_size = npy.number_size;
+        const bool flat = npy.count == 2 && npy.lengths[1] % 3 == 0;
+        if (!flat && !(npy.count == 3 && npy.lengths[2] == 3))
+            return fail(error, ERROR_INPUT, "%s: expected an array of shape (frames, vertices, 3), got %s", m->path,
+                        npy.shape);
+        if (!set_counts(m, npy.lengths[0], flat ? npy.lengths[1] / 3 : npy.lengths[1], error) ||
+            !set_layout(m, size, error))
+            return false;
+
+        // Fortran order: the first index runs fastest. In (frames, 3 vertices), vertex and coordinate are one index in which the coordinate runs
+        // faster.
+        const int64_t column = (int64_t)m->number_size * m->frames;
+        m->columns_first = npy.columns_first;
+        if (!m->columns_first) return true;
+        m->strides[1] = flat ? 3 * column : column;
+        m->strides[2] = flat ? column : column * m->vertices;
+        return true;
+    }
     if (memcmp(start, pc2_magic, sizeof pc2_magic) == 0) {
         int32_t numbers[5];
         if (!read_at(m, sizeof pc2_magic, numbers, sizeof numbers, error)) return false;
@@ -139,18 +107,28 @@ static bool read_header(struct motion *m, int64_t size, struct error *error)
     }
     if (!path_has_end(m->path, ".mdd")) // which has no magic number
         return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got something else", m->path);
-    unsigned char counts[MDD_HEADER];
-    if (!read_at(m, 0, counts, sizeof counts, error)) return false;
-    if (!set_counts(m, big_endian(counts), big_endian(counts + 4), error)) return false;
+    if (!set_counts(m, (int64_t)number_read(start, NUMBER_INT32, true),
+                    (int64_t)number_read(start + 4, NUMBER_INT32, true), error))
+        return false;
     m->data = MDD_HEADER + 4 * (int64_t)m->frames;
     m->number_size = 4;
     m->swapped = true;
     if (!set_layout(m, size, error)) return false;
     size_t bytes = 4 * (size_t)m->frames;
-    unsigned char *times = malloc(bytes);
+    char *times = malloc(bytes);
     if (!times) return fail_no_memory(error, m->path);
-    bool done = read_at(m, MDD_HEADER, times, bytes, error);
-    if (done) m->fps = m->frames > 1 ? fps_of_times(times, m->frames) : 0;
+    const bool done = read_at(m, MDD_HEADER, times, bytes, error);
+    if (done && m->frames > 1) { // frames per second if the times are equally spaced to a hundredth of a step; else 0
+        const double start_at = number_read(times, NUMBER_FLOAT32, true),
+                     end = number_read(times + bytes - 4, NUMBER_FLOAT32, true);
+        const double step = (end - start_at) / (m->frames - 1), fps = 1 / step, whole = round(fps);
+        bool even = step > 0 && isfinite(step);
+        for (int i = 1; even && i < m->frames - 1; i++) {
+            const double at = number_read(times + 4 * (size_t)i, NUMBER_FLOAT32, true);
+            even = fabs(at - start_at - i * step) <= 0.01 * step;
+        }
+        if (even) m->fps = fabs(fps - whole) < 1e-4 * fps ? whole : fps;
+    }
     free(times);
     return done;
 }
@@ -177,24 +155,6 @@ void motion_close(struct motion *motion)
     *motion = (struct motion){.file = -1};
 }
 
-static double real_at(const struct motion *m, const char *bytes)
-{
-    if (m->number_size == 4) {
-        uint32_t bits;
-        float number;
-        memcpy(&bits, bytes, sizeof bits);
-        if (m->swapped) bits = __builtin_bswap32(bits);
-        memcpy(&number, &bits, sizeof number);
-        return (double)number;
-    }
-    uint64_t bits;
-    double number;
-    memcpy(&bits, bytes, sizeof bits);
-    if (m->swapped) bits = __builtin_bswap64(bits);
-    memcpy(&number, &bits, sizeof number);
-    return number;
-}
-
 bool motion_columns(const struct motion *motion, int first, int count, double *slab, struct error *error)
 {
     const struct motion *m = motion;
@@ -202,6 +162,7 @@ bool motion_columns(const struct motion *motion, int first, int count, double *s
         m->columns_first; // all frames of one column after the other, else the columns frame by frame
     const int pieces = columns ? count : m->frames, numbers = columns ? m->frames : count;
     const size_t size = (size_t)numbers * (size_t)m->number_size;
+    const enum number_type type = m->number_size == 4 ? NUMBER_FLOAT32 : NUMBER_FLOAT64;
     char *bytes = malloc(size);
     if (!bytes) return fail_no_memory(error, m->path);
     bool done = true;
@@ -215,7 +176,7 @@ bool motion_columns(const struct motion *motion, int first, int count, double *s
         const size_t stride = columns ? (size_t)count : 1;
         double sum = 0; // stays 0 if all numbers are finite
         for (int n = 0; n < numbers; n++) {
-            const double number = real_at(m, bytes + (size_t)n * (size_t)m->number_size);
+            const double number = number_read(bytes + (size_t)n * (size_t)m->number_size, type, m->swapped);
             out[(size_t)n * stride] = number;
             sum += 0 * number;
         }

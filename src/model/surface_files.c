@@ -79,34 +79,6 @@ static bool obj_read_beside(const char *path, const char *name, size_t limit, ch
     return path_resolve(folder, plain, place) && file_read_text(place, limit, data, size, NULL);
 }
 
-static void obj_read_image(const char *path, const char *value, struct looks *looks, struct looks_material *material)
-{
-    const char *name = value; // behind options, each followed by numbers or on/off
-    while (*name == '-' && strchr(name, ' ')) {
-        name += strcspn(name, " \t");
-        for (name += strspn(name, " \t"); *name;) {
-            const size_t length = strcspn(name, " \t");
-            const bool word = strncmp(name, "on", length) == 0 || strncmp(name, "off", length) == 0;
-            char *end;
-            strtod(name, &end);
-            if (!word && end != name + length) break;
-            name += length;
-            name += strspn(name, " \t");
-        }
-    }
-    char *data = NULL;
-    size_t size = 0;
-    const size_t room = LOOKS_IMAGES_LIMIT - looks_image_bytes(looks);
-    if (material->image) return;
-    if (!obj_read_beside(path, name, room, &data, &size) || !looks_image_kind((unsigned char *)data, size)) {
-        free(data);
-        obj_note(looks, name);
-        return;
-    }
-    material->image = (unsigned char *)data;
-    material->image_size = size;
-}
-
 static bool obj_in_range(const char *text, float *value)
 {
     const float number = strtof(text, NULL);
@@ -138,8 +110,30 @@ static void obj_read_materials(const char *obj_path, const char *name, struct su
             obj_in_range(at, &material->color[3]);
         } else if ((at = obj_behind(&lines, "Tr")) && obj_in_range(at, &material->color[3])) {
             material->color[3] = 1 - material->color[3];
-        } else if ((at = obj_behind(&lines, "map_Kd"))) {
-            obj_read_image(obj_path, obj_name_at(at), looks, material);
+        } else if ((at = obj_behind(&lines, "map_Kd")) && !material->image) {
+            const char *picture = obj_name_at(at); // behind options, each followed by numbers or on/off
+            while (*picture == '-' && strchr(picture, ' ')) {
+                picture += strcspn(picture, " \t");
+                for (picture += strspn(picture, " \t"); *picture;) {
+                    const size_t length = strcspn(picture, " \t");
+                    const bool word = strncmp(picture, "on", length) == 0 || strncmp(picture, "off", length) == 0;
+                    char *end;
+                    strtod(picture, &end);
+                    if (!word && end != picture + length) break;
+                    picture += length;
+                    picture += strspn(picture, " \t");
+                }
+            }
+            char *data = NULL;
+            const size_t room = LOOKS_IMAGES_LIMIT - looks_image_bytes(looks);
+            if (obj_read_beside(obj_path, picture, room, &data, &size) &&
+                looks_image_kind((unsigned char *)data, size)) {
+                material->image = (unsigned char *)data;
+                material->image_size = size;
+            } else {
+                free(data);
+                obj_note(looks, picture);
+            }
         }
     }
     free(text);
@@ -178,28 +172,6 @@ static int obj_read_numbers(const struct obj_reader *r, char *at, double *number
     return count;
 }
 
-/// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1 or backwards from -1 (the newest).
-static bool obj_read_corner(struct obj_reader *r, char **at)
-{
-    char *end, *start = *at;
-    const int count = r->builder->surface->vertex_count;
-    long index = strtol(start, &end, 10);
-    if (index < 0) index += count + 1;
-    bool written = end > start && (*end == '/' || strchr(" \t\r", *end));
-    if (!written || index < 1 || index > INT_MAX) return obj_expected(r, "the number of a vertex", start);
-    if (index > count) {
-        char what[64];
-        snprintf(what, sizeof what, "a vertex from 1 to %d", count);
-        return obj_expected(r, what, start);
-    }
-    const int uv_count = r->builder->surface->looks.uv_count;
-    long uv = *end == '/' && end[1] != '/' ? strtol(end + 1, NULL, 10) : 0;
-    if (uv < 0) uv += uv_count + 1;
-    builder_corner(r->builder, (uint32_t)index - 1, uv >= 1 && uv <= uv_count ? (uint32_t)uv - 1 : LOOKS_NONE);
-    *at = obj_skip_space(end + strcspn(end, " \t\r"));
-    return true;
-}
-
 static bool obj_read(struct words *words, struct surface_builder *builder)
 {
     const char *text = words->at;
@@ -228,8 +200,20 @@ static bool obj_read(struct words *words, struct surface_builder *builder)
             if (obj_read_numbers(&r, at, numbers, 2) < 0) return false;
             builder_uv(builder, numbers[0], 1 - numbers[1]);
         } else if ((at = obj_behind(l, "f"))) { // a b c d … as the fan abc, acd, …
-            while (*at) {
-                if (!obj_read_corner(&r, &at)) return false;
+            while (*at) { // v, v/vt, v//vn or v/vt/vn, counted from 1 or backwards from -1 (the newest)
+                char *end;
+                const int vertices = builder->surface->vertex_count, uvs = builder->surface->looks.uv_count;
+                long index = strtol(at, &end, 10);
+                if (index < 0) index += vertices + 1;
+                const bool written = end > at && (*end == '/' || strchr(" \t\r", *end));
+                if (!written || index < 1 || index > INT_MAX) return obj_expected(&r, "the number of a vertex", at);
+                char what[64];
+                snprintf(what, sizeof what, "a vertex from 1 to %d", vertices);
+                if (index > vertices) return obj_expected(&r, what, at);
+                long uv = *end == '/' && end[1] != '/' ? strtol(end + 1, NULL, 10) : 0;
+                if (uv < 0) uv += uvs + 1;
+                builder_corner(builder, (uint32_t)index - 1, uv >= 1 && uv <= uvs ? (uint32_t)uv - 1 : LOOKS_NONE);
+                at = obj_skip_space(end + strcspn(end, " \t\r"));
             }
             const int count = builder_end_polygon(builder);
             if (count < 3)
@@ -251,36 +235,6 @@ static bool obj_name_beside(const char *obj_path, const char *ending, char path[
     return snprintf(path, PATH_LIMIT, "%.*s%s", stem, obj_path, ending) < PATH_LIMIT;
 }
 
-/// Writes materials and pictures beside an OBJ file; `name` is the material file's name in it.
-static bool obj_write_library(const char *obj_path, const struct looks *looks, char name[LIBRARY_NAME],
-                              struct error *error)
-{
-    char path[PATH_LIMIT];
-    struct file_output output;
-    if (!obj_name_beside(obj_path, ".mtl", path) ||
-        snprintf(name, LIBRARY_NAME, "%s", path_name(path)) >= LIBRARY_NAME)
-        return fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
-    if (!file_output_open(&output, path, error)) return false;
-    for (int m = 0; m < looks->material_count; m++) {
-        const struct looks_material *material = &looks->materials[m];
-        const float *c = material->color;
-        fprintf(output.stream, "newmtl %s\nKd %.9g %.9g %.9g\nd %.9g\n", material->name, (double)c[0], (double)c[1],
-                (double)c[2], (double)c[3]);
-        if (!material->image) continue;
-        char ending[32], picture[PATH_LIMIT];
-        const char *kind = looks_image_kind(material->image, material->image_size);
-        snprintf(ending, sizeof ending, "-%d.%s", m + 1, kind && *kind == 'j' ? "jpg" : "png");
-        const bool named = obj_name_beside(obj_path, ending, picture) ||
-                           fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
-        if (!named || !file_write_atomic(picture, material->image, material->image_size, error)) {
-            file_output_discard(&output);
-            return false;
-        }
-        fprintf(output.stream, "map_Kd %s\n", path_name(picture));
-    }
-    return file_output_commit(&output, error);
-}
-
 static void obj_write_corner(FILE *out, const struct surface *s, int index)
 {
     fprintf(out, " %u", s->indices[index] + 1);
@@ -291,11 +245,33 @@ bool obj_write(const char *path, const struct surface *surface, struct error *er
 {
     const struct looks *looks = &surface->looks;
     struct file_output output;
-    char library[LIBRARY_NAME];
-    if (looks->material && !obj_write_library(path, looks, library, error)) return false;
+    char library[PATH_LIMIT] = "";
+    if (looks->material) { // materials and pictures are files beside it
+        if (!obj_name_beside(path, ".mtl", library) || strlen(path_name(library)) >= LIBRARY_NAME)
+            return fail(error, ERROR_INPUT, "%s: the name is too long", path);
+        if (!file_output_open(&output, library, error)) return false;
+        for (int m = 0; m < looks->material_count; m++) {
+            const struct looks_material *material = &looks->materials[m];
+            const float *c = material->color;
+            fprintf(output.stream, "newmtl %s\nKd %.9g %.9g %.9g\nd %.9g\n", material->name, (double)c[0],
+                    (double)c[1], (double)c[2], (double)c[3]);
+            if (!material->image) continue;
+            char ending[32], picture[PATH_LIMIT];
+            const char *kind = looks_image_kind(material->image, material->image_size);
+            snprintf(ending, sizeof ending, "-%d.%s", m + 1, kind && *kind == 'j' ? "jpg" : "png");
+            const bool named =
+                obj_name_beside(path, ending, picture) || fail(error, ERROR_INPUT, "%s: the name is too long", path);
+            if (!named || !file_write_atomic(picture, material->image, material->image_size, error)) {
+                file_output_discard(&output);
+                return false;
+            }
+            fprintf(output.stream, "map_Kd %s\n", path_name(picture));
+        }
+        if (!file_output_commit(&output, error)) return false;
+    }
     if (!file_output_open(&output, path, error)) return false;
     FILE *out = output.stream;
-    if (looks->material) fprintf(out, "mtllib %s\n", library);
+    if (looks->material) fprintf(out, "mtllib %s\n", path_name(library));
     for (int i = 0; i < surface->vertex_count; i++) {
         const float *p = surface->position[i];
         fprintf(out, "v %.9g %.9g %.9g", (double)p[0], (double)p[1], (double)p[2]);
@@ -394,45 +370,6 @@ static bool ply_read_type(struct words *w, enum number_type *type)
     return words_expected(w, "a type of numbers");
 }
 
-static bool ply_read_element(struct ply *ply)
-{
-    struct words *w = ply->words;
-    if (ply->element_count == ELEMENTS_MAX) return words_expected(w, "at most 16 elements");
-    struct element *e = &ply->elements[ply->element_count++];
-    words_more(w);
-    e->vertices = words_take(w, "vertex");
-    const bool strips = !e->vertices && words_take(w, "tristrips");
-    if (!e->vertices && !strips) w->at += strcspn(w->at, " \t\r\n"); // its name
-    if (!words_integer(w, "the number of an element", 0, INT_MAX, &e->count)) return false;
-    for (;;) {
-        if (words_take(w, "comment")) {
-            words_skip_line(w);
-        } else if (!words_take(w, "property")) {
-            break;
-        } else {
-            struct property *p = &e->properties[e->property_count];
-            if (e->property_count == PROPERTIES_MAX) return words_expected(w, "at most 64 properties");
-            *p = (struct property){0};
-            const bool list = words_take(w, "list");
-            if ((list && !ply_read_type(w, &p->count_type)) || !ply_read_type(w, &p->type)) return false;
-            if (!e->vertices && list && (words_take(w, "vertex_indices") || words_take(w, "vertex_index")))
-                p->role = CORNERS;
-            for (size_t i = 0; e->vertices && !list && p->role == OTHER && i < sizeof roles / sizeof *roles; i++) {
-                if (words_take(w, roles[i].name)) p->role = roles[i].role;
-            }
-            if (p->role < ROLES) e->has[p->role] = true;
-            if (p->role == OTHER) words_skip_line(w); // its name
-            e->property_count++;
-        }
-    }
-    for (int i = 0; strips && i < e->property_count; i++) {
-        if (e->properties[i].role == CORNERS) e->properties[i].role = STRIPS;
-    }
-    if (e->vertices && !(e->has[X] && e->has[Y] && e->has[Z]))
-        return fail(w->error, ERROR_INPUT, "%s: expected vertices with x, y and z, got others", w->path);
-    return true;
-}
-
 /// Infinity and NaN are refused if `used`; unused properties may have them.
 static bool ply_read_number(struct ply *ply, enum number_type type, bool used, double *number)
 {
@@ -448,65 +385,60 @@ static bool ply_read_number(struct ply *ply, enum number_type type, bool used, d
            fail(w->error, ERROR_INPUT, "%s: expected finite numbers, got NaN or infinity", w->path);
 }
 
-static bool ply_read_list(struct ply *ply, const struct property *p)
+static bool ply_read_one(struct ply *ply, const struct element *e)
 {
     struct words *w = ply->words;
     struct surface_builder *b = ply->builder;
-    uint32_t last[2] = {0}; // the newest corners of a triangle strip
-    int strip = 0;          // and how many it has
-    double length, number;
-    if (!ply_read_number(ply, p->count_type, true, &length)) return false;
-    if (length < 0) return fail(w->error, ERROR_INPUT, "%s: expected the length of a list, got %g", w->path, length);
-    for (double i = 0; i < length && !b->failed; i++) {
-        if (!ply_read_number(ply, p->type, p->role != OTHER, &number)) return false;
-        if (p->role != CORNERS && p->role != STRIPS) continue;
-        const bool ends = p->role == STRIPS && number < 0;
-        if (!ends && !(number >= 0 && number < (double)ply->vertex_count && number == floor(number)))
-            return fail(w->error, ERROR_INPUT, "%s: expected a vertex from 0 to %ld, got %g", w->path,
-                        ply->vertex_count - 1, number);
-        const uint32_t vertex = ends ? 0 : (uint32_t)number;
-        if (p->role == CORNERS) {
-            builder_corner(b, vertex, ply->textured ? vertex : LOOKS_NONE);
-            continue;
-        }
-        if (!ends && strip >= 2) { // the triangle that ends at this corner
-            builder_corner(b, last[strip % 2], LOOKS_NONE);
-            builder_corner(b, last[strip % 2 == 0], LOOKS_NONE);
-            builder_corner(b, vertex, LOOKS_NONE);
-            builder_end_polygon(b);
-        }
-        last[0] = last[1];
-        last[1] = vertex;
-        strip = ends ? 0 : strip + 1;
-    }
-    if (p->role == CORNERS) builder_end_polygon(b);
-    return true;
-}
-
-static bool ply_read_one(struct ply *ply, const struct element *e)
-{
     double values[ROLES] = {0}, number;
     for (int i = 0; i < e->property_count; i++) {
         const struct property *p = &e->properties[i];
-        if (p->count_type) {
-            if (!ply_read_list(ply, p)) return false;
-        } else {
+        if (!p->count_type) {
             if (!ply_read_number(ply, p->type, p->role != OTHER, &number)) return false;
             const double largest = p->type == NUMBER_UINT8 ? 255 : p->type == NUMBER_UINT16 ? 65535 : 1;
             const bool color = p->role >= RED && p->role <= BLUE;
             if (p->role < ROLES) values[p->role] = color ? number / largest : number;
+            continue;
         }
+        uint32_t last[2] = {0}; // the newest corners of a triangle strip
+        int strip = 0;          // and how many it has
+        double length;
+        if (!ply_read_number(ply, p->count_type, true, &length)) return false;
+        if (length < 0)
+            return fail(w->error, ERROR_INPUT, "%s: expected the length of a list, got %g", w->path, length);
+        for (double n = 0; n < length && !b->failed; n++) {
+            if (!ply_read_number(ply, p->type, p->role != OTHER, &number)) return false;
+            if (p->role != CORNERS && p->role != STRIPS) continue;
+            const bool ends = p->role == STRIPS && number < 0;
+            if (!ends && !(number >= 0 && number < (double)ply->vertex_count && number == floor(number)))
+                return fail(w->error, ERROR_INPUT, "%s: expected a vertex from 0 to %ld, got %g", w->path,
+                            ply->vertex_count - 1, number);
+            const uint32_t vertex = ends ? 0 : (uint32_t)number;
+            if (p->role == CORNERS) {
+                builder_corner(b, vertex, ply->textured ? vertex : LOOKS_NONE);
+                continue;
+            }
+            if (!ends && strip >= 2) { // the triangle that ends at this corner
+                builder_corner(b, last[strip % 2], LOOKS_NONE);
+                builder_corner(b, last[strip % 2 == 0], LOOKS_NONE);
+                builder_corner(b, vertex, LOOKS_NONE);
+                builder_end_polygon(b);
+            }
+            last[0] = last[1];
+            last[1] = vertex;
+            strip = ends ? 0 : strip + 1;
+        }
+        if (p->role == CORNERS) builder_end_polygon(b);
     }
     if (!e->vertices) return true;
-    builder_vertex(ply->builder, values + X);
+    builder_vertex(b, values + X);
     if (e->has[RED] && e->has[GREEN] && e->has[BLUE]) {
         const double *wrong = builder_wrong_color(values + RED);
         if (wrong)
-            return fail(ply->words->error, ERROR_INPUT, "%s: vertex %d: expected a colour from 0 to 1, got %g",
-                        ply->words->path, ply->builder->surface->vertex_count, *wrong);
-        builder_color(ply->builder, values + RED);
+            return fail(w->error, ERROR_INPUT, "%s: vertex %d: expected a colour from 0 to 1, got %g", w->path,
+                        b->surface->vertex_count, *wrong);
+        builder_color(b, values + RED);
     }
-    if (e->has[U] && e->has[V]) builder_uv(ply->builder, values[U], 1 - values[V]);
+    if (e->has[U] && e->has[V]) builder_uv(b, values[U], 1 - values[V]);
     return true;
 }
 
@@ -518,21 +450,53 @@ static bool ply_read(struct words *w, struct surface_builder *builder)
     if (!words_take(w, "ply"))
         return fail(w->error, ERROR_INPUT, "%s: expected a PLY file, got something else", w->path);
     while (!words_take(w, "end_header")) {
-        bool good = true;
         if (words_take(w, "format")) {
             int f = 0;
             while (f < 3 && !words_take(w, formats[f])) f++;
             ply.format = (enum format)f;
-            good = f < 3 || words_expected(w, "ascii, binary_little_endian or binary_big_endian");
-            if (good) words_skip_line(w);
-        } else if (words_take(w, "element")) {
-            good = ply_read_element(&ply);
-        } else if (words_more(w)) {
-            words_skip_line(w); // a comment, or another program's line without that word
-        } else {
-            good = words_expected(w, "a header that ends in end_header");
+            if (f == 3) return words_expected(w, "ascii, binary_little_endian or binary_big_endian");
+            words_skip_line(w);
+            continue;
         }
-        if (!good) return false;
+        if (!words_take(w, "element")) {
+            if (!words_more(w)) return words_expected(w, "a header that ends in end_header");
+            words_skip_line(w); // a comment, or another program's line without that word
+            continue;
+        }
+        if (ply.element_count == ELEMENTS_MAX) return words_expected(w, "at most 16 elements");
+        struct element *e = &ply.elements[ply.element_count++];
+        words_more(w);
+        e->vertices = words_take(w, "vertex");
+        const bool strips = !e->vertices && words_take(w, "tristrips");
+        if (!e->vertices && !strips) w->at += strcspn(w->at, " \t\r\n"); // its name
+        if (!words_integer(w, "the number of an element", 0, INT_MAX, &e->count)) return false;
+        for (;;) {
+            if (words_take(w, "comment")) {
+                words_skip_line(w);
+            } else if (!words_take(w, "property")) {
+                break;
+            } else {
+                struct property *p = &e->properties[e->property_count];
+                if (e->property_count == PROPERTIES_MAX) return words_expected(w, "at most 64 properties");
+                *p = (struct property){0};
+                const bool list = words_take(w, "list");
+                if ((list && !ply_read_type(w, &p->count_type)) || !ply_read_type(w, &p->type)) return false;
+                if (!e->vertices && list && (words_take(w, "vertex_indices") || words_take(w, "vertex_index")))
+                    p->role = CORNERS;
+                for (size_t i = 0; e->vertices && !list && p->role == OTHER && i < sizeof roles / sizeof *roles;
+                     i++) {
+                    if (words_take(w, roles[i].name)) p->role = roles[i].role;
+                }
+                if (p->role < ROLES) e->has[p->role] = true;
+                if (p->role == OTHER) words_skip_line(w); // its name
+                e->property_count++;
+            }
+        }
+        for (int i = 0; strips && i < e->property_count; i++) {
+            if (e->properties[i].role == CORNERS) e->properties[i].role = STRIPS;
+        }
+        if (e->vertices && !(e->has[X] && e->has[Y] && e->has[Z]))
+            return fail(w->error, ERROR_INPUT, "%s: expected vertices with x, y and z, got others", w->path);
     }
     words_skip_line(w);
     if (*w->at == '\n') w->at++;
@@ -562,12 +526,22 @@ static void stl_add_corner(struct surface_builder *b, const double position[3])
     builder_vertex(b, position);
 }
 
-/// facet normal … outer loop vertex x y z ×3 endloop endfacet, in capitals or not; "end loop" in two words, too. Only vertices and ends of
-/// facets matter.
-static bool stl_read_text(struct words *w, struct surface_builder *b)
+static bool stl_read(struct words *w, struct surface_builder *b)
 {
+    const size_t size = (size_t)(w->end - w->at);
+    const uint32_t count = size >= HEAD ? (uint32_t)number_read(w->at + COUNT_AT, NUMBER_UINT32, false) : 0;
+    const size_t whole = HEAD + (size_t)count * FACET;
+    // Text begins with "solid", but so do some binary files; their size identifies them.
+    const bool text = strncasecmp(w->at + strspn(w->at, " \t\r\n"), "solid", 5) == 0 && size != whole;
+    if (!text && size < HEAD)
+        return fail(w->error, ERROR_INPUT, "%s: expected an STL file, got something else", w->path);
+    if (!text && whole > size)
+        return fail(w->error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: the file is cut off",
+                    w->path, whole, count, size);
     double p[3];
-    while (words_more(w) && !b->failed) {
+    // facet normal … outer loop vertex x y z ×3 endloop endfacet, in capitals or not; "end loop" in two words, too. Only vertices and ends
+    // of facets matter.
+    while (text && words_more(w) && !b->failed) {
         const bool ends = words_take(w, "end");
         if (!ends && words_take(w, "vertex")) {
             for (int k = 0; k < 3; k++) {
@@ -589,27 +563,10 @@ static bool stl_read_text(struct words *w, struct surface_builder *b)
             return words_expected(w, "a facet");
         }
     }
-    if (b->polygon) return words_expected(w, "endfacet");
-    return true;
-}
-
-static bool stl_read(struct words *w, struct surface_builder *b)
-{
-    const size_t size = (size_t)(w->end - w->at);
-    const uint32_t count = size >= HEAD ? (uint32_t)number_read(w->at + COUNT_AT, NUMBER_UINT32, false) : 0;
-    const size_t whole = HEAD + (size_t)count * FACET;
-    // Text begins with "solid", but so do some binary files; their size identifies them.
-    const bool text = strncasecmp(w->at + strspn(w->at, " \t\r\n"), "solid", 5) == 0 && size != whole;
-    if (!text && size < HEAD)
-        return fail(w->error, ERROR_INPUT, "%s: expected an STL file, got something else", w->path);
-    if (!text && whole > size)
-        return fail(w->error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: the file is cut off",
-                    w->path, whole, count, size);
-    if (text && !stl_read_text(w, b)) return false;
+    if (text && b->polygon) return words_expected(w, "endfacet");
     for (uint32_t i = 0; !text && i < count && !b->failed; i++) {
         for (int corner = 0; corner < 3; corner++) {
             const char *at = w->at + HEAD + (size_t)i * FACET + CORNERS_AT + 12 * corner;
-            double p[3];
             for (int k = 0; k < 3; k++) {
                 p[k] = number_read(at + 4 * k, NUMBER_FLOAT32, false);
                 if (!isfinite(p[k]))
@@ -627,16 +584,6 @@ static bool stl_read(struct words *w, struct surface_builder *b)
 // --- OFF: text, with optional colours (C), normals (N) and texture coordinates (ST) at vertices
 
 enum { NUMBERS_MAX = 16 };
-
-/// Whether the number of edges is there. Some programs leave it out: then the next line is the first vertex, of three numbers or more.
-static bool off_has_edges(const struct words *w)
-{
-    struct words ahead = *w;
-    if (!words_more(&ahead) || ahead.line == w->line) return true;
-    const int line = ahead.line;
-    words_skip(&ahead);
-    return !words_more(&ahead) || ahead.line != line;
-}
 
 static bool off_read(struct words *w, struct surface_builder *b)
 {
@@ -657,9 +604,15 @@ static bool off_read(struct words *w, struct surface_builder *b)
             return fail(w->error, ERROR_INPUT, "%s: expected an OFF file as text, got a binary one", w->path);
     }
     if (!words_integer(w, "the number of vertices", 0, INT_MAX, &vertices) ||
-        !words_integer(w, "the number of faces", 0, INT_MAX, &faces) ||
-        (off_has_edges(w) && !words_integer(w, "the number of edges", 0, LONG_MAX, &edges)))
+        !words_integer(w, "the number of faces", 0, INT_MAX, &faces))
         return false;
+    // Some programs leave out the number of edges: then the next line is the first vertex, of three numbers or more.
+    struct words ahead = *w;
+    const bool is_next_line = words_more(&ahead) && ahead.line != w->line;
+    const int line = ahead.line;
+    words_skip(&ahead);
+    const bool has_edges = !is_next_line || !words_more(&ahead) || ahead.line != line;
+    if (has_edges && !words_integer(w, "the number of edges", 0, LONG_MAX, &edges)) return false;
 
     // x y z [nx ny nz] [r g b a] [s t]; colours are 0 … 1, or 0 … 255.
     const int color = normals ? 6 : 3, uv = color + (colors ? 4 : 0), count = uv + (uvs ? 2 : 0);
