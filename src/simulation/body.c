@@ -12,32 +12,6 @@
 
 enum { SWEEPS_MAX = 60 };
 
-/// Rotates rows and columns p and q so that entry (p, q) becomes zero, and the same rows of `vectors`. False if it is zero already.
-static bool jacobi_rotate(int n, double *a, double *vectors, int p, int q)
-{
-    double pq = a[p * n + q], pp = a[p * n + p], qq = a[q * n + q];
-    if (fabs(pq) <= DBL_EPSILON * sqrt(fabs(pp)) * sqrt(fabs(qq)) || fabs(pq) < DBL_MIN) return false;
-    double theta = (qq - pp) / (2 * pq);
-    double t = copysign(1, theta) / (fabs(theta) + sqrt(1 + theta * theta));
-    double c = 1 / sqrt(1 + t * t), s = c * t;
-    for (int k = 0; k < n; k++) {
-        double x = a[k * n + p], y = a[k * n + q];
-        a[k * n + p] = c * x - s * y;
-        a[k * n + q] = s * x + c * y;
-    }
-    for (int k = 0; k < n; k++) {
-        double x = a[p * n + k], y = a[q * n + k];
-        a[p * n + k] = c * x - s * y;
-        a[q * n + k] = s * x + c * y;
-        x = vectors[p * n + k];
-        y = vectors[q * n + k];
-        vectors[p * n + k] = c * x - s * y;
-        vectors[q * n + k] = s * x + c * y;
-    }
-    a[p * n + q] = a[q * n + p] = 0;
-    return true;
-}
-
 void eigen_symmetric(int n, double *a, double *values, double *vectors)
 {
     memset(vectors, 0, (size_t)n * (size_t)n * sizeof *vectors);
@@ -46,7 +20,30 @@ void eigen_symmetric(int n, double *a, double *values, double *vectors)
     for (int sweep = 0; moved && sweep < SWEEPS_MAX; sweep++) {
         moved = false;
         for (int p = 0; p < n; p++) {
-            for (int q = p + 1; q < n; q++) moved |= jacobi_rotate(n, a, vectors, p, q);
+            for (int q = p + 1; q < n; q++) {
+                // Rotates rows and columns p and q so that entry (p, q) becomes zero, and the same rows of `vectors`.
+                double pq = a[p * n + q], pp = a[p * n + p], qq = a[q * n + q];
+                if (fabs(pq) <= DBL_EPSILON * sqrt(fabs(pp)) * sqrt(fabs(qq)) || fabs(pq) < DBL_MIN) continue;
+                double theta = (qq - pp) / (2 * pq);
+                double t = copysign(1, theta) / (fabs(theta) + sqrt(1 + theta * theta));
+                double c = 1 / sqrt(1 + t * t), s = c * t;
+                for (int k = 0; k < n; k++) {
+                    double x = a[k * n + p], y = a[k * n + q];
+                    a[k * n + p] = c * x - s * y;
+                    a[k * n + q] = s * x + c * y;
+                }
+                for (int k = 0; k < n; k++) {
+                    double x = a[p * n + k], y = a[q * n + k];
+                    a[p * n + k] = c * x - s * y;
+                    a[q * n + k] = s * x + c * y;
+                    x = vectors[p * n + k];
+                    y = vectors[q * n + k];
+                    vectors[p * n + k] = c * x - s * y;
+                    vectors[q * n + k] = s * x + c * y;
+                }
+                a[p * n + q] = a[q * n + p] = 0;
+                moved = true;
+            }
         }
     }
     for (int i = 0; i < n; i++) values[i] = a[i * n + i];
@@ -272,24 +269,6 @@ static void principal_gradients(const struct element *element, const struct svd 
     }
 }
 
-/// Adds the forces on the four nodes (N) to `force`, one row a node of the whole body; returns the energy (J).
-static double element_force(const struct element *element, const struct material *material, const struct svd *svd,
-                            double (*force)[3])
-{
-    double g[4][3], stress[3];
-    principal_gradients(element, svd, g);
-    material_stress(material, svd->sigma, stress);
-    for (int a = 0; a < 4; a++) {
-        double *f = force[element->node[a]];
-        for (int i = 0; i < 3; i++) {
-            double pb = 0;
-            for (int k = 0; k < 3; k++) pb += svd->u[i][k] * stress[k] * g[a][k];
-            f[i] -= element->volume * element->stiffness * pb;
-        }
-    }
-    return element->volume * element->stiffness * material_energy(material, svd->sigma);
-}
-
 /// The 3×3 blocks −∂f_a/∂x_b (N/m), made semidefinite; block[a][b] row by row.
 static void element_stiffness(const struct element *element, const struct material *material, const struct svd *svd,
                               double block[4][4][9])
@@ -334,21 +313,6 @@ static int compare_pairs(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/// Index of the block (row, column), which must be in the pattern.
-static int blocks_find(const struct blocks *blocks, int row, int column)
-{
-    int low = blocks->start[row], high = blocks->start[row + 1] - 1;
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (blocks->column[middle] < column) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 void blocks_multiply(const struct blocks *blocks, const double (*x)[3], double (*y)[3])
 {
     for (int i = 0; i < blocks->rows; i++) {
@@ -361,19 +325,6 @@ void blocks_multiply(const struct blocks *blocks, const double (*x)[3], double (
         }
         for (int c = 0; c < 3; c++) y[i][c] = sum[c];
     }
-}
-
-/// Inverse of a symmetric definite 3×3 block by cofactors.
-static void invert_block(const double a[9], double out[9])
-{
-    double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[5] * a[6] - a[3] * a[8], c2 = a[3] * a[7] - a[4] * a[6];
-    double scale = 1 / (a[0] * c0 + a[1] * c1 + a[2] * c2);
-    out[0] = c0 * scale;
-    out[1] = out[3] = c1 * scale;
-    out[2] = out[6] = c2 * scale;
-    out[4] = (a[0] * a[8] - a[2] * a[6]) * scale;
-    out[5] = out[7] = (a[1] * a[6] - a[0] * a[7]) * scale;
-    out[8] = (a[0] * a[4] - a[1] * a[3]) * scale;
 }
 
 /// z = D⁻¹ r; returns r · z.
@@ -396,7 +347,18 @@ int conjugate_solve(struct conjugate *c, const struct blocks *a, const double (*
     const int rows = a->rows, n = 3 * rows;
     double *r = *c->r, *z = *c->z, *p = *c->p, *q = *c->q, *unknown = *x;
     const double *right = *b;
-    for (int i = 0; i < rows; i++) invert_block(a->block[a->diagonal[i]], c->inverse[i]);
+    for (int i = 0; i < rows; i++) { // inverse of a symmetric definite 3×3 block by cofactors
+        const double *d = a->block[a->diagonal[i]];
+        double *out = c->inverse[i];
+        double c0 = d[4] * d[8] - d[5] * d[7], c1 = d[5] * d[6] - d[3] * d[8], c2 = d[3] * d[7] - d[4] * d[6];
+        double scale = 1 / (d[0] * c0 + d[1] * c1 + d[2] * c2);
+        out[0] = c0 * scale;
+        out[1] = out[3] = c1 * scale;
+        out[2] = out[6] = c2 * scale;
+        out[4] = (d[0] * d[8] - d[2] * d[6]) * scale;
+        out[5] = out[7] = (d[1] * d[6] - d[0] * d[7]) * scale;
+        out[8] = (d[0] * d[4] - d[1] * d[3]) * scale;
+    }
     double goal = tolerance * tolerance * precondition(c, rows, b, c->z);
     blocks_multiply(a, (const double(*)[3])x, c->q);
     for (int i = 0; i < n; i++) r[i] = right[i] - q[i];
@@ -489,8 +451,16 @@ void body_ready(struct body *body)
         const int *node = body->elements[e].node;
         for (int k = 0; k < 16; k++) {
             int row = node[k / 4], column = node[k % 4];
-            bool fixed = body->pinned[row] || body->pinned[column];
-            body->place[e][k] = fixed ? -1 : blocks_find(&body->stiffness, row, column);
+            const struct blocks *blocks = &body->stiffness; // the pair's block, which is in the pattern
+            int low = blocks->start[row], high = blocks->start[row + 1] - 1;
+            while (low < high) {
+                const int middle = (low + high) / 2;
+                if (blocks->column[middle] < column)
+                    low = middle + 1;
+                else
+                    high = middle;
+            }
+            body->place[e][k] = body->pinned[row] || body->pinned[column] ? -1 : low;
         }
     }
 }
@@ -506,7 +476,19 @@ double body_forces(struct body *body, const double (*x)[3], double (*force)[3])
             for (int i = 0; i < 9; i++) f[i / 3][i % 3] += x[element->node[a]][i / 3] * element->gradient[a][i % 3];
         }
         svd3(f, &body->svd[e]);
-        energy += element_force(element, &body->material, &body->svd[e], force);
+
+        // −∂Ψ/∂x of its four nodes, N.
+        const struct svd *svd = &body->svd[e];
+        const double factor = element->volume * element->stiffness;
+        double g[4][3], stress[3];
+        principal_gradients(element, svd, g);
+        material_stress(&body->material, svd->sigma, stress);
+        for (int n = 0; n < 12; n++) {
+            double pb = 0;
+            for (int k = 0; k < 3; k++) pb += svd->u[n % 3][k] * stress[k] * g[n / 3][k];
+            force[element->node[n / 3]][n % 3] -= factor * pb;
+        }
+        energy += factor * material_energy(&body->material, svd->sigma);
     }
     for (int i = 0; i < body->node_count; i++) {
         if (body->pinned[i]) memset(force[i], 0, sizeof force[i]);

@@ -181,45 +181,6 @@ static double depth_of(const struct floor *f, int vertex, double risen, const do
     return depth;
 }
 
-/// Adds the springs' forces on the nodes at the positions x to `force`; the floor is `risen` m higher. Returns the energy, J.
-static double floor_push(struct floor *f, double risen, const double (*x)[3], double (*force)[3])
-{
-    const struct lattice *l = f->lattice;
-    double energy = 0;
-    f->drag = 0;
-    for (int i = 0; i < l->vertex_count; i++) {
-        f->touched[i] = f->pushed[i] = false;
-        if (l->host[i] < 0 || !(f->spring[i] > 0)) continue;
-        const int *node = l->tet[l->host[i]];
-        const double depth = depth_of(f, i, risen, x), below = fmax(depth, 0);
-        const double drag = f->damped[i] ? f->damper[i] * f->rate : 0, sunk = depth - f->origin[i];
-        const double push = f->spring[i] * below + drag * sunk, spring = 0.5 * f->spring[i] * below * below;
-        f->touched[i] = depth > 0;
-        f->pushed[i] = push > 0;
-        energy += spring;
-        // Where the damper would pull, the potential stays at its minimum.
-        const double origin = fmax(f->origin[i], 0), both = drag * f->spring[i] / (drag + f->spring[i]);
-        f->drag += push > 0 ? 0.5 * drag * sunk * sunk : 0.5 * both * origin * origin - spring;
-        for (int a = 0; push > 0 && a < 4; a++) force[node[a]][1] += l->weight[i][a] * push;
-    }
-    return energy;
-}
-
-/// Adds −∂f/∂x at the last floor_push() to the body's stiffness.
-static void floor_stiffness(const struct floor *f, struct body *body)
-{
-    const struct lattice *l = f->lattice;
-    for (int i = 0; i < l->vertex_count; i++) {
-        if (!f->pushed[i]) continue;
-        const int *place = body->place[l->host[i]];
-        const double stiffness = (f->touched[i] ? f->spring[i] : 0) + (f->damped[i] ? f->damper[i] * f->rate : 0);
-        for (int k = 0; k < 16; k++) {
-            if (place[k] < 0) continue;
-            body->stiffness.block[place[k]][4] += stiffness * l->weight[i][k / 4] * l->weight[i][k % 4];
-        }
-    }
-}
-
 // --- steps
 
 enum { NEWTON_STEPS = 60, GRADIENT_STEPS = 2000 };
@@ -269,8 +230,30 @@ static double loads_forces(const struct loads *loads, const struct body *body, d
             energy -= body->mass[i] * pull[c] * (x[i][c] - body->rest[i][c]);
         }
     }
-    if (loads->floor) energy += floor_push(loads->floor, floor_rise(loads, time), x, force);
-    return energy;
+    if (!loads->floor) return energy;
+
+    // The springs under the vertices push the nodes.
+    struct floor *f = loads->floor;
+    const struct lattice *l = f->lattice;
+    const double risen = floor_rise(loads, time);
+    double pressed = 0;
+    f->drag = 0;
+    for (int i = 0; i < l->vertex_count; i++) {
+        f->touched[i] = f->pushed[i] = false;
+        if (l->host[i] < 0 || !(f->spring[i] > 0)) continue;
+        const int *node = l->tet[l->host[i]];
+        const double depth = depth_of(f, i, risen, x), below = fmax(depth, 0);
+        const double drag = f->damped[i] ? f->damper[i] * f->rate : 0, sunk = depth - f->origin[i];
+        const double push = f->spring[i] * below + drag * sunk, spring = 0.5 * f->spring[i] * below * below;
+        f->touched[i] = depth > 0;
+        f->pushed[i] = push > 0;
+        pressed += spring;
+        // Where the damper would pull, the potential stays at its minimum.
+        const double origin = fmax(f->origin[i], 0), both = drag * f->spring[i] / (drag + f->spring[i]);
+        f->drag += push > 0 ? 0.5 * drag * sunk * sunk : 0.5 * both * origin * origin - spring;
+        for (int a = 0; push > 0 && a < 4; a++) force[node[a]][1] += l->weight[i][a] * push;
+    }
+    return energy + pressed;
 }
 
 /// A step in the form of Newmark's: x + h v + h² (k a + β a'), v + h ((1 − γ) a + γ a'), with a' from the balance of forces at
@@ -285,17 +268,6 @@ static struct scheme complete_scheme(struct scheme s, double h)
     s.inertia = (1 - s.am) / ((1 - s.af) * s.beta * h * h);
     s.rate = s.gamma / (s.beta * h);
     return s;
-}
-
-/// Chung and Hulbert's parameters for ρ∞ = 0.8.
-static struct scheme generalised_alpha(double h)
-{
-    const double rho = 0.8;
-    struct scheme s = {.am = (2 * rho - 1) / (rho + 1), .af = rho / (rho + 1)};
-    s.gamma = 0.5 - s.am + s.af;
-    s.beta = 0.25 * (1 - s.am + s.af) * (1 - s.am + s.af);
-    s.k = 0.5 - s.beta;
-    return complete_scheme(s, h);
 }
 
 static struct scheme backward_euler(double h) { return complete_scheme((struct scheme){.beta = 1, .gamma = 1}, h); }
@@ -382,34 +354,12 @@ static double slope_along(const struct integrator *m)
     return slope;
 }
 
-/// Line search along the Newton step, until the potential has fallen enough: by Armijo's condition or, where rounding hides the
-/// fall, by the slope (Hager and Zhang 2005, approximate Wolfe condition). Returns the largest move of a node, 0 if no step leads
-/// down. A step below the tolerance is taken unchecked.
-static double line_search(struct integrator *m, const struct scheme *scheme, double *energy)
-{
-    enum { HALVINGS = 30 };
-    const double enough = 1e-4, rounding = 1e-6;
-    struct integrator_work *w = m->work;
-    double *y = vec3_flat(w->y), *direction = vec3_flat(w->direction);
-    double largest = 0, before = *energy, slope = slope_along(m), part = 1, taken = 0;
-    for (int i = 0; i < m->body->node_count; i++) largest = fmax(largest, vec3_length(w->direction[i]));
-    for (int halving = 0; halving < HALVINGS; halving++, part /= 2) {
-        for (int i = 0; i < 3 * m->body->node_count; i++) y[i] += (part - taken) * direction[i];
-        if (largest <= m->tolerance) return largest;
-        taken = part;
-        *energy = evaluate_potential(m, scheme, (const double(*)[3])w->y);
-        if (*energy <= before + enough * part * slope) return part * largest;
-        if (*energy <= before + rounding * fabs(before) && fabs(slope_along(m)) <= 0.8 * fabs(slope)) {
-            return part * largest;
-        }
-    }
-    return 0;
-}
-
 /// Minimises the potential from y. It has creases where two principal stretches of an inverted element are opposite, and Newton's
 /// method may not converge on one. Then the lowest point found is good enough, since every iteration went down.
 static void minimise(struct integrator *m, const struct scheme *scheme)
 {
+    enum { HALVINGS = 30 };
+    const double enough = 1e-4, rounding = 1e-6;
     struct integrator_work *w = m->work;
     struct blocks *a = &m->body->stiffness;
     const size_t bytes = (size_t)m->body->node_count * sizeof *w->direction;
@@ -419,7 +369,17 @@ static void minimise(struct integrator *m, const struct scheme *scheme)
         const double damping = scheme->rate * m->stiffness_damping;
         const double inertia = scheme->inertia + scheme->rate * m->mass_damping;
         body_stiffness(m->body);
-        if (m->loads.floor) floor_stiffness(m->loads.floor, m->body);
+        const struct floor *f = m->loads.floor;
+        const struct lattice *l = f ? f->lattice : NULL;
+        for (int i = 0; f && i < l->vertex_count; i++) { // −∂f/∂x of its springs as loads_forces() left them
+            if (!f->pushed[i]) continue;
+            const int *place = m->body->place[l->host[i]];
+            const double stiffness = (f->touched[i] ? f->spring[i] : 0) + (f->damped[i] ? f->damper[i] * f->rate : 0);
+            for (int k = 0; k < 16; k++) {
+                if (place[k] < 0) continue;
+                a->block[place[k]][4] += stiffness * l->weight[i][k / 4] * l->weight[i][k % 4];
+            }
+        }
         for (int k = 0; damping > 0 && k < a->start[a->rows]; k++) {
             for (int i = 0; i < 9; i++) a->block[k][i] += damping * w->lagged.block[k][i];
         }
@@ -431,7 +391,23 @@ static void minimise(struct integrator *m, const struct scheme *scheme)
         m->gradients += conjugate_solve(&m->body->scratch, a, (const double(*)[3])w->downhill, w->direction,
                                         linear_tolerance, GRADIENT_STEPS);
         m->newton++;
-        if (!(line_search(m, scheme, &energy) > m->tolerance)) return;
+
+        // Line search along the Newton step, until the potential has fallen enough: by Armijo's condition or, where rounding hides the
+        // fall, by the slope (Hager and Zhang 2005, approximate Wolfe condition). A step below the tolerance is taken unchecked.
+        double *y = vec3_flat(w->y), *direction = vec3_flat(w->direction), largest = 0, part = 1, taken = 0;
+        const double before = energy, slope = slope_along(m);
+        for (int i = 0; i < a->rows; i++) largest = fmax(largest, vec3_length(w->direction[i]));
+        bool falls = false;
+        for (int halving = 0; halving < HALVINGS && !falls; halving++) {
+            for (int i = 0; i < 3 * a->rows; i++) y[i] += (part - taken) * direction[i];
+            if (largest <= m->tolerance) return;
+            taken = part;
+            energy = evaluate_potential(m, scheme, (const double(*)[3])w->y);
+            falls = energy <= before + enough * part * slope ||
+                    (energy <= before + rounding * fabs(before) && fabs(slope_along(m)) <= 0.8 * fabs(slope));
+            if (!falls) part /= 2;
+        }
+        if (!falls || !(part * largest > m->tolerance)) return;
     }
 }
 
@@ -475,27 +451,6 @@ static void newmark(const struct integrator *m, const struct scheme *s, int i, i
     *v = m->v[i][c] + h * ((1 - s->gamma) * before + s->gamma * *a);
 }
 
-/// How far the energy at the step's end exceeds its bound, J. A drive does the work ∂Φ/∂t on the body, here by the trapezoidal
-/// rule: the mean change of Φ at the start's positions and at the end's.
-static double energy_surplus(struct integrator *m, const struct scheme *s)
-{
-    struct integrator_work *w = m->work;
-    double end, a, v, work = 0;
-    double energy = sum_forces(m, m->time + m->step, (const double(*)[3])w->y, w->force, &end);
-    for (int i = 0; i < m->body->node_count; i++) {
-        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
-            newmark(m, s, i, c, &a, &v);
-            energy += 0.5 * m->body->mass[i] * v * v;
-        }
-    }
-    if (m->loads.drive) {
-        work = loads_forces(&m->loads, m->body, m->time + m->step, (const double(*)[3])m->x, w->force) - w->potential;
-        work += end - loads_forces(&m->loads, m->body, m->time, (const double(*)[3])w->y, w->force);
-        work /= 2;
-    }
-    return energy + end - work - w->least - growth_allowed * w->scale;
-}
-
 bool integrator_find_equilibrium(struct integrator *m)
 {
     enum { EQUILIBRIUM_STEPS = 200 };
@@ -524,7 +479,12 @@ bool integrator_find_equilibrium(struct integrator *m)
 bool integrator_step(struct integrator *m)
 {
     struct integrator_work *w = m->work;
-    struct scheme scheme = generalised_alpha(m->step);
+    const double rho = 0.8; // ρ∞ of Chung and Hulbert's parameters
+    struct scheme scheme = {.am = (2 * rho - 1) / (rho + 1), .af = rho / (rho + 1)};
+    scheme.gamma = 0.5 - scheme.am + scheme.af;
+    scheme.beta = 0.25 * (1 - scheme.am + scheme.af) * (1 - scheme.am + scheme.af);
+    scheme.k = 0.5 - scheme.beta;
+    scheme = complete_scheme(scheme, m->step);
 
     // Forces, energy and the stiffness for damping; at the first step also the accelerations M⁻¹(f − C v).
     double energy = sum_forces(m, m->time, (const double(*)[3])m->x, w->start, &w->potential) +
@@ -550,7 +510,23 @@ bool integrator_step(struct integrator *m)
 
     set_targets(m, &scheme);
     minimise(m, &scheme);
-    if (!(energy_surplus(m, &scheme) <= 0)) { // also true if it is not finite
+
+    // The energy at the step's end has a bound. A drive does the work ∂Φ/∂t on the body, here by the trapezoidal rule: the mean change
+    // of Φ at the start's positions and at the end's.
+    double end, work = 0, a, v;
+    energy = sum_forces(m, m->time + m->step, (const double(*)[3])w->y, w->force, &end);
+    for (int i = 0; i < m->body->node_count; i++) {
+        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
+            newmark(m, &scheme, i, c, &a, &v);
+            energy += 0.5 * m->body->mass[i] * v * v;
+        }
+    }
+    if (m->loads.drive) {
+        work = loads_forces(&m->loads, m->body, m->time + m->step, (const double(*)[3])m->x, w->force) - w->potential;
+        work += end - loads_forces(&m->loads, m->body, m->time, (const double(*)[3])w->y, w->force);
+        work /= 2;
+    }
+    if (!(energy + end - work - w->least - growth_allowed * w->scale <= 0)) { // also true if it is not finite
         scheme = backward_euler(m->step);
         set_targets(m, &scheme);
         minimise(m, &scheme);
@@ -560,7 +536,6 @@ bool integrator_step(struct integrator *m)
     double sum = 0;
     for (int i = 0; i < m->body->node_count; i++) {
         for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
-            double a, v;
             newmark(m, &scheme, i, c, &a, &v);
             w->a[i][c] = a;
             m->v[i][c] = v;

@@ -273,61 +273,12 @@ static double coarse_enough(const struct solid *solid, double cell)
     }
 }
 
-/// Tries cubes of several sizes until the number of tetrahedra is within 3 % or stops improving; a cube has about twelve.
-static void fit_count(struct tiling *best, const struct solid *solid, int target, double layer, double *best_cell)
-{
-    enum { TRIES = 8 };
-    double cell = cbrt(12 * solid_volume(solid) / target), nearest = INFINITY;
-    *best = (struct tiling){0};
-    for (int i = 0; i < TRIES && nearest > 0.03; i++) {
-        struct tiling tiling;
-        double allowed = coarse_enough(solid, cell);
-        if (allowed > cell && i > 0) break; // no finer lattice is allowed
-        cell = allowed;
-        tiling_create(&tiling, solid, cell, layer);
-        double ratio = fmax(tiling.kept, 1) / target;
-        if (fabs(log(ratio)) < nearest) {
-            nearest = fabs(log(ratio));
-            tiling_free(best);
-            *best = tiling;
-            *best_cell = cell;
-        } else {
-            tiling_free(&tiling);
-        }
-        cell *= pow(ratio, 0.4); // the number falls with a power between 2 (all surface) and 3 (all inside)
-    }
-}
-
 /// Volume of the elements as a multiple of the solid's.
 static double swelling(const struct tiling *t, double volume)
 {
     double voxels = 0;
     for (int e = 0; e < t->count; e++) voxels += t->part[e] < 0 ? 0 : t->filled[e];
     return voxels * pow(t->voxels.spacing, 3) / volume;
-}
-
-/// Voxels make a limb up to half a voxel too thick or thin on either side, a tenth of a limb one cube wide, and as much too stiff or
-/// soft. Where that does not average out, cubes of a slightly different size give the body the right volume.
-static void fit_volume(struct tiling *best, const struct solid *solid, double layer, double *cell)
-{
-    enum { TRIES = 8 };
-    static const double little = 0.01, progress = 0.9;
-    const double volume = solid_volume(solid);
-    double away = log(swelling(best, volume));
-    for (int i = 0; i < TRIES && fabs(away) > little; i++) {
-        struct tiling tiling;
-        double tried = coarse_enough(solid, *cell * exp(-away / 3));
-        tiling_create(&tiling, solid, tried, layer);
-        double now = log(swelling(&tiling, volume));
-        if (!(fabs(now) < progress * fabs(away))) {
-            tiling_free(&tiling);
-            break;
-        }
-        away = now;
-        *cell = tried;
-        tiling_free(best);
-        *best = tiling;
-    }
 }
 
 enum { LEVELS = 26 }; ///< of halving the longest side; there are fewer than 2²⁵ voxels
@@ -342,27 +293,6 @@ struct pyramid {
 static int block_index(const struct pyramid *p, int level, const int block[3])
 {
     return (block[0] * p->size[level][1] + block[1]) * p->size[level][2] + block[2];
-}
-
-static void pyramid_create(struct pyramid *p, const struct tiling *t)
-{
-    *p = (struct pyramid){.tiling = t};
-    memcpy(p->size[0], t->voxels.size, sizeof p->size[0]);
-    while (p->size[p->top][0] > 1 || p->size[p->top][1] > 1 || p->size[p->top][2] > 1) {
-        const int below = p->top++, *from = p->size[below];
-        for (int c = 0; c < 3; c++) p->size[p->top][c] = (from[c] + 1) / 2;
-        const int *size = p->size[p->top];
-        p->any[p->top] = need_zeroed((size_t)size[0] * (size_t)size[1] * (size_t)size[2], 1);
-        int at = 0;
-        for (int i = 0; i < from[0]; i++) {
-            for (int j = 0; j < from[1]; j++) {
-                for (int k = 0; k < from[2]; k++, at++) {
-                    const bool any = below > 0 ? p->any[below][at] : t->element[at] >= 0;
-                    if (any) p->any[p->top][block_index(p, p->top, (const int[3]){i / 2, j / 2, k / 2})] = 1;
-                }
-            }
-        }
-    }
 }
 
 /// A search for the voxel of the lattice nearest to a point given in voxels.
@@ -437,10 +367,10 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
             int *known = &node_number[t->node[e][a]];
             if (*known < 0) {
                 *known = lattice->node_count++;
-                const int key = t->key[e][a],
-                          p[3] = {key / (ny * nz), key / nz % ny, key % nz}; // as point_key() makes it
+                const int key = t->key[e][a], // as point_key() makes it
+                    point[3] = {key / (ny * nz), key / nz % ny, key % nz};
                 for (int c = 0; c < 3; c++)
-                    lattice->node[*known][c] = v->origin[c] + p[c] * v->spacing * VOXELS_A_CELL / 2;
+                    lattice->node[*known][c] = v->origin[c] + point[c] * v->spacing * VOXELS_A_CELL / 2;
             }
             lattice->tet[k][a] = *known;
         }
@@ -457,8 +387,23 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
     lattice->host = pool_take(&lattice->pool, count + 1, sizeof *lattice->host);
     lattice->weight = pool_take(&lattice->pool, count + 1, sizeof *lattice->weight);
     uint8_t *used = surface_used_vertices(surface);
-    struct pyramid pyramid;
-    pyramid_create(&pyramid, t);
+    struct pyramid pyramid = {.tiling = t};
+    struct pyramid *p = &pyramid;
+    memcpy(p->size[0], v->size, sizeof p->size[0]);
+    while (p->size[p->top][0] > 1 || p->size[p->top][1] > 1 || p->size[p->top][2] > 1) {
+        const int below = p->top++, *from = p->size[below];
+        int *size = p->size[p->top], at = 0;
+        for (int c = 0; c < 3; c++) size[c] = (from[c] + 1) / 2;
+        p->any[p->top] = need_zeroed((size_t)size[0] * (size_t)size[1] * (size_t)size[2], 1);
+        for (int i = 0; i < from[0]; i++) {
+            for (int j = 0; j < from[1]; j++) {
+                for (int k = 0; k < from[2]; k++, at++) {
+                    const bool any = below > 0 ? p->any[below][at] : t->element[at] >= 0;
+                    if (any) p->any[p->top][block_index(p, p->top, (const int[3]){i / 2, j / 2, k / 2})] = 1;
+                }
+            }
+        }
+    }
     for (int i = 0; i < surface->vertex_count; i++) {
         const double length = vec3_length(normal[i]);
         struct nearest n = {.pyramid = &pyramid, .distance = INFINITY, .found = -1};
@@ -490,18 +435,38 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
 bool lattice_create(struct lattice *lattice, const struct surface *surface, const struct lattice_options *options,
                     const char *name, struct error *error)
 {
-    static const double SURE = 0.85, LEAST = 0.65;
+    enum { TRIES = 8 };
+    static const double SURE = 0.85, LEAST = 0.65, little = 0.01, progress = 0.9;
     struct solid solid;
-    struct tiling tiling = {0};
+    struct tiling tiling = {0}, tried;
     *lattice = (struct lattice){0};
     solid_create(&solid, surface, fmax(0, options->thickness));
     solid_describe(&solid, lattice->repair);
-    const double certainty = solid_volume(&solid) > 0 ? solid_certainty(&solid) : 0, fitting = sqrt(solid.area) / 25;
+    const double volume = solid_volume(&solid), fitting = sqrt(solid.area) / 25;
+    const double certainty = volume > 0 ? solid_certainty(&solid) : 0;
     bool good =
         certainty >= (options->thickness >= 0 ? LEAST : SURE) ||
         fail(error, ERROR_INPUT, "%s: the mesh has no clear inside: --thickness %.1g makes it a sheet of %.1g m%s",
              name, fitting, fitting, certainty >= LEAST ? ", --thickness 0 closes its openings" : "");
-    if (good) fit_count(&tiling, &solid, options->target, options->layer, &lattice->cell);
+
+    // Tries cubes of several sizes until the number of tetrahedra is within 3 % or stops improving; a cube has about twelve.
+    double cell = cbrt(12 * volume / options->target), nearest = INFINITY;
+    for (int i = 0; good && i < TRIES && nearest > 0.03; i++) {
+        const double allowed = coarse_enough(&solid, cell);
+        if (allowed > cell && i > 0) break; // no finer lattice is allowed
+        cell = allowed;
+        tiling_create(&tried, &solid, cell, options->layer);
+        const double ratio = fmax(tried.kept, 1) / options->target;
+        if (fabs(log(ratio)) < nearest) {
+            nearest = fabs(log(ratio));
+            tiling_free(&tiling);
+            tiling = tried;
+            lattice->cell = cell;
+        } else {
+            tiling_free(&tried);
+        }
+        cell *= pow(ratio, 0.4); // the number falls with a power between 2 (all surface) and 3 (all inside)
+    }
     if (good && tiling.kept == 0)
         good = fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name,
                     options->target);
@@ -509,7 +474,20 @@ bool lattice_create(struct lattice *lattice, const struct surface *surface, cons
         // Where parts overlap, the mesh's volume counts the overlap twice.
         const double thick = sheet_thickness(&solid, &tiling.voxels);
         const bool exact = !solid.open && !tiling.voxels.overlaps && thick == solid.thickness;
-        if (exact) fit_volume(&tiling, &solid, options->layer, &lattice->cell);
+
+        // Voxels make a limb up to half a voxel too thick or thin on either side, a tenth of a limb one cube wide, and as much too stiff
+        // or soft. Where that does not average out, cubes of a slightly different size give the body the right volume.
+        double away = exact ? log(swelling(&tiling, volume)) : 0;
+        for (int i = 0; i < TRIES && fabs(away) > little; i++) {
+            cell = coarse_enough(&solid, lattice->cell * exp(-away / 3));
+            tiling_create(&tried, &solid, cell, options->layer);
+            const double now = log(swelling(&tried, volume));
+            tiling_free(fabs(now) < progress * fabs(away) ? &tiling : &tried);
+            if (!(fabs(now) < progress * fabs(away))) break;
+            away = now;
+            lattice->cell = cell;
+            tiling = tried;
+        }
         if (thick > 0)
             snprintf(lattice->repair, sizeof lattice->repair, "a sheet %.3g m thick%s", thick,
                      exact ? "" : ", as thin as so few tetrahedra can be");

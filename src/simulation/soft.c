@@ -99,57 +99,6 @@ int region_vertices(const struct region *region, const struct surface *surface, 
     return found;
 }
 
-/// Shortest paths along the elements' edges from the pinned nodes (Bellman and Ford), scaled to a longest of 1.
-static bool weigh_distance(const struct lattice *lattice, const struct body *body, const char *name, double *node,
-                           struct error *error)
-{
-    double longest = 0;
-    bool any = false;
-    for (int i = 0; i < lattice->node_count; i++) {
-        node[i] = body->pinned[i] ? 0 : INFINITY;
-        any |= body->pinned[i];
-    }
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (int e = 0; e < lattice->tet_count; e++) {
-            for (int k = 0; k < 16; k++) {
-                int from = lattice->tet[e][k / 4], to = lattice->tet[e][k % 4];
-                double edge[3];
-                for (int c = 0; c < 3; c++) edge[c] = lattice->node[to][c] - lattice->node[from][c];
-                double way = node[from] + vec3_length(edge);
-                if (way >= node[to]) continue;
-                node[to] = way;
-                changed = true;
-            }
-        }
-    }
-    for (int i = 0; i < lattice->node_count; i++) longest = isfinite(node[i]) ? fmax(longest, node[i]) : longest;
-    for (int i = 0; i < lattice->node_count; i++) node[i] = fmin(1, node[i] / fmax(longest, 1e-300));
-    return any || fail(error, ERROR_INPUT, "%s: --soft distance: expected a pinned region, got none", name);
-}
-
-/// Reads a .npy of `vertices` float32 or float64 numbers.
-static bool read_softness(const char *path, const char *data, size_t size, int vertices, double *vertex,
-                          struct error *error)
-{
-    struct npy npy;
-    if (!npy_read_header(&npy, path, data, size, error)) return false;
-    bool fits = npy.count >= 1 && npy.lengths[0] == vertices;
-    for (int i = 1; i < npy.count; i++) fits &= npy.lengths[i] == 1;
-    if (!fits)
-        return fail(error, ERROR_INPUT, "%s: expected an array of %d numbers, one a vertex, got %s", path, vertices,
-                    npy.shape);
-    if (size - (size_t)npy.data < (size_t)vertices * (size_t)npy.number_size)
-        return fail(error, ERROR_INPUT, "%s: expected %d numbers, got a file that ends before", path, vertices);
-    for (int i = 0; i < vertices; i++) {
-        vertex[i] = npy_number(&npy, data + npy.data + (size_t)i * (size_t)npy.number_size);
-        if (!(vertex[i] >= 0 && vertex[i] <= 1))
-            return fail(error, ERROR_INPUT, "%s: vertex %d: expected a number from 0 to 1, got %g", path, i,
-                        vertex[i]);
-    }
-    return true;
-}
-
 bool softness_apply(const struct softness *softness, const struct lattice *lattice, const struct surface *surface,
                     const char *name, struct body *body, struct error *error)
 {
@@ -160,7 +109,30 @@ bool softness_apply(const struct softness *softness, const struct lattice *latti
     double *node = need_zeroed((size_t)lattice->node_count + 1, sizeof *node);
     bool good = true;
     if (by_distance) {
-        good = weigh_distance(lattice, body, name, node, error);
+        // Shortest paths along the elements' edges from the pinned nodes (Bellman and Ford), scaled to a longest of 1.
+        double longest = 0;
+        bool any = false;
+        for (int i = 0; i < lattice->node_count; i++) {
+            node[i] = body->pinned[i] ? 0 : INFINITY;
+            any |= body->pinned[i];
+        }
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (int e = 0; e < lattice->tet_count; e++) {
+                for (int k = 0; k < 16; k++) {
+                    int from = lattice->tet[e][k / 4], to = lattice->tet[e][k % 4];
+                    double edge[3];
+                    for (int c = 0; c < 3; c++) edge[c] = lattice->node[to][c] - lattice->node[from][c];
+                    double way = node[from] + vec3_length(edge);
+                    if (way >= node[to]) continue;
+                    node[to] = way;
+                    changed = true;
+                }
+            }
+        }
+        for (int i = 0; i < lattice->node_count; i++) longest = isfinite(node[i]) ? fmax(longest, node[i]) : longest;
+        for (int i = 0; i < lattice->node_count; i++) node[i] = fmin(1, node[i] / fmax(longest, 1e-300));
+        if (!any) good = fail(error, ERROR_INPUT, "%s: --soft distance: expected a pinned region, got none", name);
     } else if (by_color) {
         if (!surface->color)
             good = fail(error, ERROR_INPUT, "%s: --soft color: expected colours of vertices, got none", name);
@@ -169,11 +141,27 @@ bool softness_apply(const struct softness *softness, const struct lattice *latti
             vertex[i] =
                 fmin(1, fmax(0, vertex[i])); // colours in files may be brighter than white or darker than black
         }
-    } else {
+    } else { // a .npy of float32 or float64 numbers
+        const char *path = softness->from;
+        const int vertices = surface->vertex_count;
+        struct npy npy;
         char *data = NULL;
         size_t size;
-        good = file_read_text(softness->from, FILE_LIMIT, &data, &size, error) &&
-               read_softness(softness->from, data, size, surface->vertex_count, vertex, error);
+        good =
+            file_read_text(path, FILE_LIMIT, &data, &size, error) && npy_read_header(&npy, path, data, size, error);
+        bool fits = good && npy.count >= 1 && npy.lengths[0] == vertices;
+        for (int i = 1; fits && i < npy.count; i++) fits = npy.lengths[i] == 1;
+        if (good && !fits)
+            good = fail(error, ERROR_INPUT, "%s: expected an array of %d numbers, one a vertex, got %s", path,
+                        vertices, npy.shape);
+        if (good && size - (size_t)npy.data < (size_t)vertices * (size_t)npy.number_size)
+            good = fail(error, ERROR_INPUT, "%s: expected %d numbers, got a file that ends before", path, vertices);
+        for (int i = 0; good && i < vertices; i++) {
+            vertex[i] = npy_number(&npy, data + npy.data + (size_t)i * (size_t)npy.number_size);
+            if (!(vertex[i] >= 0 && vertex[i] <= 1))
+                good = fail(error, ERROR_INPUT, "%s: vertex %d: expected a number from 0 to 1, got %g", path, i,
+                            vertex[i]);
+        }
         free(data);
     }
     if (good && !by_distance) lattice_spread(lattice, vertex, node);
@@ -277,37 +265,6 @@ static double shaken_part(const struct soft *soft, const struct shake *shake, co
     return away / farthest * (away / farthest);
 }
 
-/// Finds the mode that is seen most: by the power with which it moves the surface, times how long it lasts, 1 / ω.
-static void find_seen(struct soft *soft, const struct shake *shake)
-{
-    const struct body *body = &soft->body;
-    const int vertices = soft->lattice.vertex_count;
-    float(*vertex)[3] = need_zeroed((size_t)vertices + 1, sizeof *vertex);
-    double most = 0, all = 0, pinned[2];
-    pinned_range(soft, pinned);
-    for (int k = 0; k < soft->modes.count; k++) {
-        const double(*shape)[3] = (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)body->node_count);
-        const double omega = soft->modes.frequency[k];
-        double overlap = 0; // Σ m φ·u: how far the shake moves the mode; a push, 1 / ω as far
-        for (int i = 0; i < body->node_count; i++) {
-            double along = 0;
-            for (int c = 0; c < 3; c++) along += shape[i][c] * shake->direction[c];
-            overlap += body->mass[i] * shaken_part(soft, shake, pinned, i) * along;
-        }
-        const double amplitude = shake->impulse ? overlap / omega : overlap;
-        double power = 0; // Σ |φ|² over the surface's vertices; those without triangles stay at 0
-        lattice_embed(&soft->lattice, shape, vertex);
-        for (int n = 0; n < 3 * vertices; n++) power += pow((double)vertex[n / 3][n % 3], 2);
-        const double seen = amplitude * amplitude * power / omega;
-        all += seen;
-        if (seen <= most) continue;
-        most = seen;
-        soft->seen = k;
-    }
-    soft->share = all > 0 ? most / all : 0;
-    free(vertex);
-}
-
 double soft_frequency(const struct soft *soft)
 {
     return soft->modes.count > 0 ? soft->modes.frequency[soft->seen] : 0;
@@ -360,7 +317,34 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     // Finds the modes for Young's modulus 1 and scales it: frequencies grow with its square root.
     modes_create(&soft->modes, body, options->modes);
     if (soft->modes.count == 0) return true;
-    if (options->shake) find_seen(soft, options->shake);
+    if (options->shake) {
+        // Finds the mode that is seen most: by the power with which it moves the surface, times how long it lasts, 1 / ω.
+        const int vertices = soft->lattice.vertex_count;
+        float(*vertex)[3] = need_zeroed((size_t)vertices + 1, sizeof *vertex);
+        double most = 0, all = 0, pinned[2];
+        pinned_range(soft, pinned);
+        for (int k = 0; k < soft->modes.count; k++) {
+            const double(*shape)[3] = (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)body->node_count);
+            const double omega = soft->modes.frequency[k];
+            double overlap = 0; // Σ m φ·u: how far the shake moves the mode; a push, 1 / ω as far
+            for (int i = 0; i < body->node_count; i++) {
+                double along = 0;
+                for (int c = 0; c < 3; c++) along += shape[i][c] * options->shake->direction[c];
+                overlap += body->mass[i] * shaken_part(soft, options->shake, pinned, i) * along;
+            }
+            const double amplitude = options->shake->impulse ? overlap / omega : overlap;
+            double power = 0; // Σ |φ|² over the surface's vertices; those without triangles stay at 0
+            lattice_embed(&soft->lattice, shape, vertex);
+            for (int n = 0; n < 3 * vertices; n++) power += pow((double)vertex[n / 3][n % 3], 2);
+            const double seen = amplitude * amplitude * power / omega;
+            all += seen;
+            if (seen <= most) continue;
+            most = seen;
+            soft->seen = k;
+        }
+        soft->share = all > 0 ? most / all : 0;
+        free(vertex);
+    }
     soft->young =
         options->young > 0 ? options->young : pow(options->frequency / soft->modes.frequency[soft->seen], 2);
     for (int k = 0; k < soft->modes.count; k++) soft->modes.frequency[k] *= sqrt(soft->young);

@@ -101,20 +101,6 @@ void winding_free(struct winding *winding)
     *winding = (struct winding){0};
 }
 
-/// Half the solid angle of a triangle (van Oosterom and Strackee).
-static double half_angle(const struct surface *surface, int triangle, const double point[3])
-{
-    double p[3][3], length[3], across[3];
-    triangle_corners(surface, triangle, p);
-    for (int k = 0; k < 3; k++) {
-        for (int c = 0; c < 3; c++) p[k][c] -= point[c];
-        length[k] = vec3_length(p[k]);
-    }
-    vec3_cross(p[1], p[2], across);
-    return atan2(vec3_dot(p[0], across), length[0] * length[1] * length[2] + vec3_dot(p[0], p[1]) * length[2] +
-                                             vec3_dot(p[1], p[2]) * length[0] + vec3_dot(p[2], p[0]) * length[1]);
-}
-
 double winding_at(const struct winding *winding, const double point[3])
 {
     const double pi = 3.14159265358979323846;
@@ -132,8 +118,18 @@ double winding_at(const struct winding *winding, const double point[3])
             waiting[count++] = node->second;
             waiting[count++] = number + 1;
         } else {
-            for (int i = node->first; i < node->first + node->count; i++)
-                angle += half_angle(winding->surface, winding->order[i], point);
+            for (int i = node->first; i < node->first + node->count; i++) { // by van Oosterom and Strackee
+                double p[3][3], length[3], across[3];
+                triangle_corners(winding->surface, winding->order[i], p);
+                for (int k = 0; k < 3; k++) {
+                    for (int c = 0; c < 3; c++) p[k][c] -= point[c];
+                    length[k] = vec3_length(p[k]);
+                }
+                vec3_cross(p[1], p[2], across);
+                angle += atan2(vec3_dot(p[0], across),
+                               length[0] * length[1] * length[2] + vec3_dot(p[0], p[1]) * length[2] +
+                                   vec3_dot(p[1], p[2]) * length[0] + vec3_dot(p[2], p[0]) * length[1]);
+            }
         }
     }
     return angle / (2 * pi);
@@ -217,25 +213,6 @@ static double whole_area(const struct surface *s)
     return sum;
 }
 
-/// How a ray from `from` crosses a triangle: 1 ahead, −1 behind, 0 not (Möller and Trumbore).
-static int ray_crosses(const struct surface *s, int triangle, const double from[3], const double direction[3])
-{
-    double p[3][3], edge[2][3], away[3], h[3], q[3];
-    triangle_corners(s, triangle, p);
-    for (int c = 0; c < 3; c++) {
-        for (int k = 0; k < 2; k++) edge[k][c] = p[k + 1][c] - p[0][c];
-        away[c] = from[c] - p[0][c];
-    }
-    vec3_cross(direction, edge[1], h);
-    const double determinant = vec3_dot(edge[0], h);
-    if (determinant == 0) return 0;
-    const double u = vec3_dot(away, h) / determinant;
-    vec3_cross(away, edge[0], q);
-    const double v = vec3_dot(direction, q) / determinant;
-    if (u < 0 || v < 0 || u + v > 1) return 0;
-    return vec3_dot(edge[1], q) / determinant > 0 ? 1 : -1;
-}
-
 static double random_of(uint32_t *seed)
 {
     *seed = 1664525u * *seed + 1013904223u;
@@ -259,10 +236,22 @@ static bool faces_inwards(const struct repair *r, int first, int count, int rays
         }
         const bool along = (vec3_dot(direction, normal) > 0) != r->turned[own];
         int ahead = 0, behind = 0;
-        for (int t = 0; t < s->index_count / 3; t++) {
-            const int side = t == own ? 0 : ray_crosses(s, t, middle, direction);
-            ahead += side > 0;
-            behind += side < 0;
+        for (int t = 0; t < s->index_count / 3; t++) { // where the line crosses (Möller and Trumbore)
+            double p[3][3], edge[2][3], away[3], h[3], q[3];
+            if (t == own) continue;
+            triangle_corners(s, t, p);
+            for (int c = 0; c < 3; c++) {
+                for (int k = 0; k < 2; k++) edge[k][c] = p[k + 1][c] - p[0][c];
+                away[c] = middle[c] - p[0][c];
+            }
+            vec3_cross(direction, edge[1], h);
+            const double determinant = vec3_dot(edge[0], h);
+            if (determinant == 0) continue;
+            const double u = vec3_dot(away, h) / determinant;
+            vec3_cross(away, edge[0], q);
+            const double v = vec3_dot(direction, q) / determinant;
+            if (u < 0 || v < 0 || u + v > 1) continue;
+            *(vec3_dot(edge[1], q) / determinant > 0 ? &ahead : &behind) += 1;
         }
         const int front = along ? ahead : behind, back = along ? behind : ahead;
         votes += front % 2 ? 1 : -1;
@@ -645,34 +634,12 @@ static void fill_open(struct voxels *v, const struct solid *solid, const struct 
     free(c.crossed);
 }
 
-/// Squared distance of a point from a triangle: from its plane if it lies above it, else from its nearest edge.
-static double distance_squared(const double corner[3][3], const double at[3])
-{
-    double edge[3][3], away[3][3], normal[3], across[3], nearest = INFINITY;
-    for (int k = 0; k < 9; k++) {
-        edge[k / 3][k % 3] = corner[(k / 3 + 1) % 3][k % 3] - corner[k / 3][k % 3];
-        away[k / 3][k % 3] = at[k % 3] - corner[k / 3][k % 3];
-    }
-    vec3_cross(edge[0], edge[1], normal);
-    const double size = vec3_dot(normal, normal), height = vec3_dot(normal, away[0]);
-    bool above = size > 0;
-    for (int k = 0; k < 3; k++) {
-        const double length = fmax(vec3_dot(edge[k], edge[k]), 1e-300);
-        const double along = fmin(1, fmax(0, vec3_dot(edge[k], away[k]) / length));
-        vec3_cross(edge[k], away[k], across);
-        above = above && vec3_dot(across, normal) >= 0;
-        for (int c = 0; c < 3; c++) away[k][c] -= along * edge[k][c];
-        nearest = fmin(nearest, vec3_dot(away[k], away[k]));
-    }
-    return above ? height * height / size : nearest;
-}
-
 static void fill_sheet(struct voxels *v, const struct solid *solid)
 {
     const double reach = (1 + 1e-6) * sheet_thickness(solid, v) / 2;
     const int triangles = solid->shape.index_count / 3;
     for (int t = 0; t < triangles; t++) {
-        double corner[3][3], at[3];
+        double corner[3][3], edge[3][3], normal[3];
         int lo[3], hi[3];
         if (t % TELLING == 0) progress_report("cutting the mesh into tetrahedra", t, triangles);
         triangle_corners(&solid->shape, t, corner);
@@ -681,16 +648,31 @@ static void fill_sheet(struct voxels *v, const struct solid *solid)
             const double high = fmax(corner[0][c], fmax(corner[1][c], corner[2][c])) + reach - v->origin[c];
             lo[c] = (int)ceil(low / v->spacing - 0.5);
             hi[c] = (int)floor(high / v->spacing - 0.5);
+            for (int k = 0; k < 3; k++) edge[k][c] = corner[(k + 1) % 3][c] - corner[k][c];
         }
+        vec3_cross(edge[0], edge[1], normal);
+        const double size = vec3_dot(normal, normal);
         for (int i = lo[0]; i <= hi[0]; i++) {
-            at[0] = v->origin[0] + (i + 0.5) * v->spacing;
             for (int j = lo[1]; j <= hi[1]; j++) {
                 uint8_t *inside = v->inside + (size_t)(i * v->size[1] + j) * (size_t)v->size[2];
-                at[1] = v->origin[1] + (j + 0.5) * v->spacing;
                 for (int k = lo[2]; k <= hi[2]; k++) {
+                    // Squared distance from the triangle: from its plane above it, else from its nearest edge.
+                    const int at[3] = {i, j, k};
+                    double away[3][3], across[3], height = 0, nearest = INFINITY;
+                    bool above = size > 0;
                     if (inside[k]) continue;
-                    at[2] = v->origin[2] + (k + 0.5) * v->spacing;
-                    inside[k] = distance_squared((const double(*)[3])corner, at) <= reach * reach;
+                    for (int n = 0; n < 9; n++)
+                        away[n / 3][n % 3] = v->origin[n % 3] + (at[n % 3] + 0.5) * v->spacing - corner[n / 3][n % 3];
+                    height = vec3_dot(normal, away[0]);
+                    for (int n = 0; n < 3; n++) {
+                        const double length = fmax(vec3_dot(edge[n], edge[n]), 1e-300);
+                        const double along = fmin(1, fmax(0, vec3_dot(edge[n], away[n]) / length));
+                        vec3_cross(edge[n], away[n], across);
+                        above = above && vec3_dot(across, normal) >= 0;
+                        for (int c = 0; c < 3; c++) away[n][c] -= along * edge[n][c];
+                        nearest = fmin(nearest, vec3_dot(away[n], away[n]));
+                    }
+                    inside[k] = (above ? height * height / size : nearest) <= reach * reach;
                 }
             }
         }
