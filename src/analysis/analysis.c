@@ -255,74 +255,35 @@ static void create_components(struct analysis *a, const struct work *w, int coun
     }
 }
 
-/// One component per pole.
-static void find_swinging(struct analysis *a, struct work *w)
-{
-    const int frames = w->motion->frames;
-    struct time_series series;
-    int count;
-    for (;;) { // without the last component so large that others must cancel it
-        double complex z[TIME_SERIES_MAX];
-        count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
-        for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
-        series = time_series_create(w->lapack, w->gram, frames, w->plan->first, z, count);
-        int cancelled = count - 1;
-        while (cancelled >= 0 && series.part[cancelled] <= cancelling * w->power) cancelled--;
-        if (cancelled < 0 || count == 1) break;
-        time_series_free(&series);
-        for (int k = cancelled; k + 1 < w->pole_count; k++) w->poles[k] = w->poles[k + 1];
-        w->pole_count--;
-        a->cancelled++;
-    }
-    create_components(a, w, count);
-    const double complex *z = series.pole;
-    for (int k = 0; k < count; k++) {
-        struct component *c = &a->components[k];
-        const double *row = series.rows + 2 * (size_t)k * (size_t)frames;
-        double complex s = clog(z[k]) * w->plan->fps;
-        for (int t = 0; t < frames; t++) c->series[t] = row[t] - I * row[frames + t];
-        c->frequency = cabs(s) / (2 * M_PI);
-        c->damping = fmax(-creal(s) / cabs(s), 0);
-    }
-    for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = series.weights[i];
-    time_series_free(&series);
-}
-
-/// The motion of component l along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2. Returns Σ_t of
-/// its product with the motion of component k.
-static double find_overlap(const struct component *k, const struct component *l, const double *weights,
-                           double complex *along)
-{
-    double complex plain = 0, conjugate = 0;
-    double product = 0;
-    for (int t = 0; t < k->frames; t++) {
-        double complex w = weights[t] + I * weights[k->frames + t];
-        plain += w * k->metric.pull[t];
-        conjugate += conj(w) * k->metric.pull[t];
-    }
-    for (int t = 0; t < k->frames; t++) {
-        along[t] = (l->series[t] * plain + conj(l->series[t]) * conjugate) / 2;
-        product += creal(k->series[t] * along[t]);
-    }
-    return product;
-}
-
 /// Restricts each component's metric to its own motion, the whole minus the others': |s − Σ_l Re(R_l Ñ_l)|² over all l ≠ k.
 static void share_motion(struct analysis *a, const struct work *w)
 {
     size_t n = (size_t)w->motion->frames;
     double products[TIME_SERIES_MAX][TIME_SERIES_MAX], pulls[TIME_SERIES_MAX] = {0}, left = w->power;
-    double complex *along = need((1 + (size_t)a->count) * n, sizeof *along);
-    double complex *others = along + n;
+    double complex *others = need((size_t)a->count * n, sizeof *others);
     for (size_t i = 0; i < (size_t)a->count * n; i++) others[i] = 0;
     for (int k = 0; k < a->count; k++) {
         struct component *c = &a->components[k];
         for (size_t t = 0; t < n; t++) pulls[k] += creal(c->series[t] * c->metric.pull[t]);
         left -= 2 * pulls[k];
         for (int l = 0; l < a->count; l++) {
-            products[k][l] = find_overlap(c, &a->components[l], w->weights + 2 * (size_t)l * n, along);
-            for (size_t t = 0; t < n && l != k; t++) others[(size_t)k * n + t] += along[t];
-            left += products[k][l];
+            // The motion of component l along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2, and
+            // the sum over the frames of its product with the motion of component k.
+            const double *re = w->weights + 2 * (size_t)l * n, *im = re + n;
+            const double complex *series = a->components[l].series;
+            double complex plain = 0, conjugate = 0;
+            double product = 0;
+            for (size_t t = 0; t < n; t++) {
+                const double complex weight = re[t] + I * im[t];
+                plain += weight * c->metric.pull[t];
+                conjugate += conj(weight) * c->metric.pull[t];
+            }
+            for (size_t t = 0; t < n; t++) {
+                const double complex along = (series[t] * plain + conj(series[t]) * conjugate) / 2;
+                product += creal(c->series[t] * along);
+                if (l != k) others[(size_t)k * n + t] += along;
+            }
+            left += products[k][l] = product;
         }
     }
     a->left = sqrt(fmax(left, 0) / w->power);
@@ -333,7 +294,7 @@ static void share_motion(struct analysis *a, const struct work *w)
         for (int l = 0; l < a->count; l++) c->metric.power -= 2 * products[k][l];
         for (size_t t = 0; t < n; t++) c->metric.pull[t] -= others[(size_t)k * n + t];
     }
-    free(along);
+    free(others);
 }
 
 static bool find_components(struct analysis *a, struct work *w, struct error *error)
@@ -357,7 +318,33 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
     if (!spectrum_real_shares(w->lapack, w->gram, frames, ANALYSIS_MODES_MAX, shares))
         return fail_frames(error, w->motion);
     if (w->plan->method == ANALYSIS_POLES) {
-        find_swinging(a, w);
+        struct time_series series;
+        int count;
+        for (;;) { // without the last component so large that others must cancel it
+            double complex z[TIME_SERIES_MAX];
+            count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
+            for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
+            series = time_series_create(w->lapack, w->gram, frames, w->plan->first, z, count);
+            int cancelled = count - 1;
+            while (cancelled >= 0 && series.part[cancelled] <= cancelling * w->power) cancelled--;
+            if (cancelled < 0 || count == 1) break;
+            time_series_free(&series);
+            for (int k = cancelled; k + 1 < w->pole_count; k++) w->poles[k] = w->poles[k + 1];
+            w->pole_count--;
+            a->cancelled++;
+        }
+        create_components(a, w, count);
+        const double complex *z = series.pole;
+        for (int k = 0; k < count; k++) {
+            struct component *c = &a->components[k];
+            const double *row = series.rows + 2 * (size_t)k * (size_t)frames;
+            double complex s = clog(z[k]) * w->plan->fps;
+            for (int t = 0; t < frames; t++) c->series[t] = row[t] - I * row[frames + t];
+            c->frequency = cabs(s) / (2 * M_PI);
+            c->damping = fmax(-creal(s) / cabs(s), 0);
+        }
+        for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = series.weights[i];
+        time_series_free(&series);
     } else { // one component per principal component of the analytic signal
         struct spectrum spectrum;
         create_components(a, w, w->plan->modes < frames ? w->plan->modes : frames);
@@ -498,32 +485,6 @@ static bool solve_curve(const struct knot_search *s, const struct knots *k, doub
     return true;
 }
 
-/// Solves A v = b by Cholesky; an unknown without effect gets 0. Returns bᵀv.
-static double solve_unknowns(double a[UNKNOWNS][UNKNOWNS], const double *b, int count, double *v)
-{
-    double gain = 0;
-    for (int j = 0; j < count; j++) {
-        double whole = a[j][j];
-        for (int k = 0; k < j; k++) a[j][j] -= a[j][k] * a[j][k];
-        a[j][j] = a[j][j] > 1e-10 * whole ? sqrt(a[j][j]) : HUGE_VAL;
-        for (int i = j + 1; i < count; i++) {
-            for (int k = 0; k < j; k++) a[i][j] -= a[i][k] * a[j][k];
-            a[i][j] /= a[j][j];
-        }
-    }
-    for (int i = 0; i < count; i++) {
-        v[i] = b[i];
-        for (int k = 0; k < i; k++) v[i] -= a[i][k] * v[k];
-        v[i] /= a[i][i];
-    }
-    for (int i = count - 1; i >= 0; i--) {
-        for (int k = i + 1; k < count; k++) v[i] -= a[k][i] * v[k];
-        v[i] /= a[i][i];
-    }
-    for (int i = 0; i < count; i++) gain += b[i] * v[i];
-    return gain;
-}
-
 /// Finds the best values and slopes, and their error; infinite if the solver fails.
 static double evaluate_knots(const struct knot_search *s, struct knots *k)
 {
@@ -548,7 +509,29 @@ static double evaluate_knots(const struct knot_search *s, struct knots *k)
                 a[i][j] += (creal(x[t] * conj(y[t])) * m->norm + creal(x[t] * y[t] * m->square)) / 2;
         }
     }
-    double left = m->power - solve_unknowns(a, b, unknowns, v);
+
+    // Solves A v = b by Cholesky; an unknown without effect gets 0.
+    for (int j = 0; j < unknowns; j++) {
+        const double whole = a[j][j];
+        for (int i = 0; i < j; i++) a[j][j] -= a[j][i] * a[j][i];
+        a[j][j] = a[j][j] > 1e-10 * whole ? sqrt(a[j][j]) : HUGE_VAL;
+        for (int i = j + 1; i < unknowns; i++) {
+            for (int l = 0; l < j; l++) a[i][j] -= a[i][l] * a[j][l];
+            a[i][j] /= a[j][j];
+        }
+    }
+    for (int i = 0; i < unknowns; i++) {
+        v[i] = b[i];
+        for (int l = 0; l < i; l++) v[i] -= a[i][l] * v[l];
+        v[i] /= a[i][i];
+    }
+    for (int i = unknowns - 1; i >= 0; i--) {
+        for (int l = i + 1; l < unknowns; l++) v[i] -= a[l][i] * v[l];
+        v[i] /= a[i][i];
+    }
+    double gain = 0;
+    for (int i = 0; i < unknowns; i++) gain += b[i] * v[i];
+    const double left = m->power - gain;
     for (int i = 0; i < k->count; i++) {
         k->value[i] = v[i];
         k->slope[i] = k->sloped ? v[k->count + i] * 2 * M_PI * k->frequency : 0;
@@ -566,15 +549,6 @@ static bool keep_better(const struct knot_search *s, struct knots *k, struct kno
 
 /// Frames from one knot to the next. A slope right beside a neighbour would have no effect.
 static int least_gap(const struct knots *k) { return k->sloped ? 3 : 1; }
-
-static bool try_frame(const struct knot_search *s, struct knots *k, int knot, int frame)
-{
-    struct knots changed = *k;
-    int gap = least_gap(k), last = knot + 1 < k->count ? k->frame[knot + 1] - gap : s->component->frames - 1;
-    if (frame < k->frame[knot - 1] + gap || frame > last) return false;
-    changed.frame[knot] = frame;
-    return keep_better(s, k, &changed);
-}
 
 /// The frequency changes by a relative step, damping and bandwidth by an absolute one.
 static bool try_parameters(const struct knot_search *s, struct knots *k, double frequency, double damping,
@@ -596,8 +570,12 @@ static void refine_knots(const struct knot_search *s, struct knots *k, int strid
         for (int sweep = 0; better && sweep < SWEEPS; sweep++) {
             better = false;
             for (int sign = -1; sign <= 1; sign += 2) {
-                for (int knot = 1; knot < k->count; knot++)
-                    better |= try_frame(s, k, knot, k->frame[knot] + sign * stride);
+                for (int knot = 1; knot < k->count; knot++) {
+                    struct knots changed = *k;
+                    const int gap = least_gap(k), frame = changed.frame[knot] += sign * stride;
+                    const int last = knot + 1 < k->count ? k->frame[knot + 1] - gap : s->component->frames - 1;
+                    if (frame >= k->frame[knot - 1] + gap && frame <= last) better |= keep_better(s, k, &changed);
+                }
                 better |= try_parameters(s, k, sign * step, 0, 0);
                 better |= try_parameters(s, k, 0, sign * step, 0);
                 if (k->mode == WIGGLY_COMPLEX) better |= try_parameters(s, k, 0, 0, sign * step);

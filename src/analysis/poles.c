@@ -40,23 +40,6 @@ static double trend(int windows, bool linear, int j)
     return linear ? (j - middle) / sqrt(windows * (windows * (double)windows - 1) / 12) : 1 / sqrt(windows);
 }
 
-/// Removes what is constant, then what is linear in the window's start j: C −= B G Bᵀ, where row i of B is the trend over j, delayed by
-/// i frames. `room` holds 2 L n numbers.
-static void remove_trends(const struct lapack *lapack, const double *gram, int n, int length, double *room, double *c)
-{
-    int windows = n - length + 1;
-    double *b = room, *bg = room + (size_t)length * (size_t)n;
-    for (int linear = 0; linear < 2; linear++) {
-        memset(b, 0, (size_t)length * (size_t)n * sizeof *b);
-        for (int i = 0; i < length; i++) {
-            for (int j = 0; j < windows; j++) b[(size_t)i * (size_t)n + (size_t)(i + j)] = trend(windows, linear, j);
-        }
-        lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, length, n, n, 1, b, n, gram, n, 0, bg, n);
-        lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, length, length, n, -1, bg, n, b, n, 1, c,
-                      length);
-    }
-}
-
 /// Entry (i, k) of U_r. LAPACK stores columns first, eigenvalues ascending.
 static double entry(const double *vectors, int length, int i, int k)
 {
@@ -148,13 +131,26 @@ int subspace_poles(const struct lapack *lapack, const double *gram, int frames, 
         }
     }
     for (int i = 0; i < length; i++) whole += c[i * length + i];
-    remove_trends(lapack, gram, frames, length, room, c);
+
+    // Removes what is constant, then what is linear in the window's start j: C −= B G Bᵀ, where row i of B is the trend over j, delayed
+    // by i frames.
+    double *b = room, *bg = room + (size_t)length * n;
+    for (int linear = 0; linear < 2; linear++) {
+        memset(b, 0, (size_t)length * n * sizeof *b);
+        for (int i = 0; i < length; i++) {
+            for (int j = 0; j < windows; j++) b[(size_t)i * n + (size_t)(i + j)] = trend(windows, linear, j);
+        }
+        lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, length, frames, frames, 1, b, frames, gram, frames,
+                      0, bg, frames);
+        lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, length, length, frames, -1, bg, frames, b,
+                      frames, 1, c, length);
+    }
     memcpy(room, c, size * sizeof *c);
     bool good = lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', length, room, length, values) == 0;
     if (good && values[length - 1] <= least_swing * whole) {
         count = 0;
     } else if (good) {
-        // Restores what remove_trends() removed of white noise of this power per window and frame, so that it is white again.
+        // Restores what that removed of white noise of this power per window and frame, so that it is white again.
         const double noise = fmax(values[length / 2], 0);
         for (int d = 0; d < length; d++) {
             double removed = 0;
@@ -201,29 +197,6 @@ static void append_pole(struct basis *basis, double complex z, double *room)
     basis_append(basis, room + basis->frames);
 }
 
-/// The largest power of one pole's part on its own, Σ (Bᵀ W S)² over its two sequences: tr(B Bᵀ W G Wᵀ) with
-/// B Bᵀ = L Lᵀ. The first sequence is no pole's. `weights` has room for all of W.
-static double largest_part(const struct basis *basis, const double *gram, double *weights)
-{
-    size_t n = (size_t)basis->frames;
-    double largest = 0;
-    basis_weights(basis, weights);
-    for (int k = MIDDLE; k < basis->count; k += 2) {
-        double part = 0;
-        for (int i = 0; i < 4; i++) {
-            const double *a = weights + (size_t)(k + i / 2) * n, *b = weights + (size_t)(k + i % 2) * n;
-            double power = 0, product = 0;
-            for (size_t t = 0; t < n; t++) power += a[t] * basis_dot(gram + t * n, b, basis->frames);
-            for (int j = 0; j < basis->capacity; j++)
-                product +=
-                    basis->lower[(k + i / 2) * basis->capacity + j] * basis->lower[(k + i % 2) * basis->capacity + j];
-            part += power * product;
-        }
-        largest = fmax(largest, part);
-    }
-    return largest;
-}
-
 int exponentials_choose(struct pole *poles, int count, int most, double least, const double *gram,
                         struct basis *basis)
 {
@@ -256,7 +229,24 @@ int exponentials_choose(struct pole *poles, int count, int most, double least, c
             const struct pole pole = poles[best];
             if ((!wandering || chosen > 0) && gain < least * power) break;
             append_pole(basis, pole.z, room);
-            if (chosen > 0 && largest_part(basis, gram, room) > part_most * power) {
+
+            // The largest power of one pole's part on its own, Σ (Bᵀ W S)² over its two sequences: tr(B Bᵀ W G Wᵀ) with B Bᵀ = L Lᵀ.
+            double largest = 0;
+            if (chosen > 0) basis_weights(basis, room);
+            for (int k = MIDDLE; chosen > 0 && k < basis->count; k += 2) {
+                double part = 0;
+                for (int i = 0; i < 4; i++) {
+                    const double *a = room + (size_t)(k + i / 2) * n, *b = room + (size_t)(k + i % 2) * n;
+                    const double *above = basis->lower + (k + i / 2) * basis->capacity,
+                                 *below = basis->lower + (k + i % 2) * basis->capacity;
+                    double share = 0, product = 0;
+                    for (size_t t = 0; t < n; t++) share += a[t] * basis_dot(gram + t * n, b, basis->frames);
+                    for (int j = 0; j < basis->capacity; j++) product += above[j] * below[j];
+                    part += share * product;
+                }
+                largest = fmax(largest, part);
+            }
+            if (largest > part_most * power) {
                 basis->count -= 2;
                 poles[best] = poles[--end];
                 continue;

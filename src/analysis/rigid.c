@@ -86,42 +86,6 @@ static void measure_rest(struct survey *s)
 
 static double size_of(const struct survey *s) { return s->spread[0][0] + s->spread[1][1] + s->spread[2][2]; }
 
-static void survey_vertex(struct survey *s, const struct slab *slab, int vertex)
-{
-    const double *x = slab->numbers + 3 * vertex - slab->first;
-    double low[3], high[3];
-    for (int c = 0; c < 3; c++) low[c] = INFINITY, high[c] = -INFINITY;
-    for (int t = 0; t < slab->motion->frames; t++, x += slab->count) {
-        for (int c = 0; c < 3; c++) {
-            low[c] = fmin(low[c], x[c]);
-            high[c] = fmax(high[c], x[c]);
-        }
-        if (!s->base[vertex]) continue;
-        for (int a = 0; a < 3; a++) {
-            const double away = (double)s->rest->position[vertex][a] - s->centre[a];
-            s->mean[t][a] += x[a] / s->count;
-            for (int b = 0; b < 3; b++) s->moment[t][a][b] += away * x[b];
-        }
-    }
-    for (int c = 0; c < 3; c++) s->extent[vertex] += (high[c] - low[c]) * (high[c] - low[c]);
-}
-
-/// Horn's quaternion of a frame.
-static void fit_turn(const struct lapack *lapack, const double m[3][3], double weight, double q[4])
-{
-    double k[16] = {0}, values[4];
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        k[0] += m[a][a];
-        k[1 + a] = m[b][c] - m[c][b];
-        k[5 * (1 + a)] = m[a][a] - m[b][b] - m[c][c];
-        k[4 * (1 + (a < b ? a : b)) + 1 + (a < b ? b : a)] = m[a][b] + m[b][a];
-    }
-    k[0] += weight;
-    const bool found = lapack->dsyevd(LAPACK_ROWS_FIRST, 'V', 'U', 4, k, 4, values) == 0;
-    for (int i = 0; i < 4; i++) q[i] = found ? k[4 * i + 3] : i == 0; // the last column
-}
-
 enum { PATH = 7 }; ///< x̄ of a frame, and its quaternion times twice the reach, as lengths
 
 /// Replaces each row of the path by its least-squares cubic: the slow part. False if that is small beside the rest.
@@ -160,8 +124,17 @@ static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
     const double size = size_of(s), reach = sqrt(size / s->count);
     double *path = need(PATH * (size_t)frames, sizeof *path), before[4] = {1};
     for (int t = 0; t < frames; t++) {
-        double q[4], same = 0;
-        fit_turn(lapack, (const double(*)[3])s->moment[t], identity * size, q);
+        double q[4], k[16] = {0}, values[4], same = 0, (*m)[3] = s->moment[t];
+        for (int a = 0; a < 3; a++) { // Horn's matrix
+            const int b = (a + 1) % 3, c = (a + 2) % 3;
+            k[0] += m[a][a];
+            k[1 + a] = m[b][c] - m[c][b];
+            k[5 * (1 + a)] = m[a][a] - m[b][b] - m[c][c];
+            k[4 * (1 + (a < b ? a : b)) + 1 + (a < b ? b : a)] = m[a][b] + m[b][a];
+        }
+        k[0] += identity * size;
+        const bool found = lapack->dsyevd(LAPACK_ROWS_FIRST, 'V', 'U', 4, k, 4, values) == 0;
+        for (int i = 0; i < 4; i++) q[i] = found ? k[4 * i + 3] : i == 0; // the last column
         for (int i = 0; i < 4; i++) same += q[i] * before[i];
         for (int i = 0; i < 4; i++) {
             before[i] = copysign(1, same) * q[i];
@@ -228,7 +201,23 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
     if (s.count > 0) {
         struct slab slab = slab_start(motion);
         while (slab_next(&slab, error)) {
-            for (int v = slab.first / 3; v < (slab.first + slab.count) / 3; v++) survey_vertex(&s, &slab, v);
+            for (int v = slab.first / 3; v < (slab.first + slab.count) / 3; v++) {
+                const double *x = slab.numbers + 3 * v - slab.first;
+                double low[3], high[3];
+                for (int c = 0; c < 3; c++) low[c] = INFINITY, high[c] = -INFINITY;
+                for (int t = 0; t < motion->frames; t++, x += slab.count) {
+                    for (int c = 0; c < 3; c++) {
+                        low[c] = fmin(low[c], x[c]);
+                        high[c] = fmax(high[c], x[c]);
+                    }
+                    for (int a = 0; s.base[v] && a < 3; a++) {
+                        const double away = (double)rest->position[v][a] - s.centre[a];
+                        s.mean[t][a] += x[a] / s.count;
+                        for (int b = 0; b < 3; b++) s.moment[t][a][b] += away * x[b];
+                    }
+                }
+                for (int c = 0; c < 3; c++) s.extent[v] += (high[c] - low[c]) * (high[c] - low[c]);
+            }
         }
         done = slab_end(&slab);
     }

@@ -21,22 +21,6 @@ static const double least_power = 1e-9;
 
 enum { TERMS = HILBERT_ORDER_MAX + 1 };
 
-/// Updates C_ij = Σ_{t=mq}^{n−1} ⟨x_{t−iq}, x_{t−jq}⟩ for i, j ≤ m from order m − 1; q is the stride.
-static void advance_lags(const double *gram, int n, int m, int q, double lags[TERMS][TERMS])
-{
-    for (int i = 0; i < m; i++) {
-        for (int j = 0; j < m; j++) {
-            for (int t = (m - 1) * q; t < m * q; t++)
-                lags[i][j] -= gram[(size_t)(t - i * q) * (size_t)n + (size_t)(t - j * q)];
-        }
-    }
-    for (int j = 0; j <= m; j++) {
-        double sum = 0;
-        for (int t = m * q; t < n; t++) sum += gram[(size_t)(t - m * q) * (size_t)n + (size_t)(t - j * q)];
-        lags[m][j] = lags[j][m] = sum;
-    }
-}
-
 struct predictor hilbert_predictor(const double *gram, int frames)
 {
     size_t n = (size_t)frames;
@@ -59,7 +43,20 @@ struct predictor hilbert_predictor(const double *gram, int frames)
     lags[0][0] = trace;
     for (int m = 1; m <= HILBERT_ORDER_MAX && m * p.stride <= 2 * frames / 3; m++) {
         double before[TERMS];
-        advance_lags(gram, frames, m, p.stride, lags);
+
+        // C_ij = Σ_{t=mq}^{n−1} ⟨x_{t−iq}, x_{t−jq}⟩ for i, j ≤ m from order m − 1; q is the stride.
+        const int q = p.stride;
+        for (int i = 0; i < m; i++) {
+            for (int j = 0; j < m; j++) {
+                for (int t = (m - 1) * q; t < m * q; t++)
+                    lags[i][j] -= gram[(size_t)(t - i * q) * n + (size_t)(t - j * q)];
+            }
+        }
+        for (int j = 0; j <= m; j++) {
+            double sum = 0;
+            for (int t = m * q; t < frames; t++) sum += gram[(size_t)(t - m * q) * n + (size_t)(t - j * q)];
+            lags[m][j] = lags[j][m] = sum;
+        }
 
         // Burg's step, with f_t = Σ a_i x_{t−iq} and b_{t−q} = Σ a_i x_{t−(m−i)q}: k = −2 Σ ⟨f_t, b_{t−q}⟩ / Σ (|f_t|² + |b_{t−q}|²)
         double product = 0, left = 0;
