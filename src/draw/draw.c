@@ -165,47 +165,6 @@ static bool merge_cheapest(struct pile *pile, long limit)
 
 static const long ANY_WASTE = LONG_MAX;
 
-/// Adds a run, or extends an equally wide one above it.
-static void add_run(struct pile *pile, struct area run)
-{
-    for (int i = pile->count - 1; i >= 0; i--) {
-        struct area *above = &pile->areas[i];
-        if (above->y1 != run.y0 || above->x0 != run.x0 || above->x1 != run.x1) continue;
-        above->y1 = run.y1;
-        return;
-    }
-    if (pile->count == CANDIDATES) merge_cheapest(pile, ANY_WASTE);
-    pile->areas[pile->count++] = run;
-}
-
-/// Merges rectangles that touch until all are disjoint.
-static void make_disjoint(struct pile *pile)
-{
-    for (int i = 0; i < pile->count; i++) {
-        for (int j = i + 1; j < pile->count; j++) {
-            if (!area_touches(pile->areas[i], pile->areas[j])) continue;
-            merge(pile, i, j);
-            i = -1;
-            break;
-        }
-    }
-}
-
-/// Merges all rectangles that touch the stage into one.
-static void join_on_stage(struct pile *pile, struct area viewport)
-{
-    int first = -1;
-    for (int i = 0; i < pile->count; i++) {
-        if (!area_touches(pile->areas[i], viewport)) continue;
-        if (first < 0) {
-            first = i;
-        } else {
-            merge(pile, first, i);
-            i--;
-        }
-    }
-}
-
 /// An extra rectangle costs about as much as this many pixels: each traverses the list and changes the scissor.
 static const long WORTH_A_RECTANGLE = 4096;
 
@@ -238,13 +197,36 @@ static void damage_update(struct damage *damage, int width, int height, float sc
             int from = to;
             while (from < columns && now[from] == before[from]) from++;
             for (to = from; to < columns && now[to] != before[to];) to++;
-            if (from < to) add_run(&pile, (struct area){x[from], y[row], x[to], y[row + 1]});
+            if (from == to) continue;
+            int above = pile.count - 1; // an equally wide one above it is extended
+            while (above >= 0 && !(pile.areas[above].y1 == y[row] && pile.areas[above].x0 == x[from] &&
+                                   pile.areas[above].x1 == x[to]))
+                above--;
+            if (above < 0 && pile.count == CANDIDATES) merge_cheapest(&pile, ANY_WASTE);
+            if (above < 0)
+                pile.areas[pile.count++] = (struct area){x[from], y[row], x[to], y[row + 1]};
+            else
+                pile.areas[above].y1 = y[row + 1];
         }
     }
     for (int count = 0; damage->known && count != pile.count;) {
         count = pile.count;
-        make_disjoint(&pile);
-        join_on_stage(&pile, area_intersect(viewport, whole));
+        for (int i = 0; i < pile.count; i++) { // those that touch, until all are disjoint
+            for (int j = i + 1; j < pile.count; j++) {
+                if (!area_touches(pile.areas[i], pile.areas[j])) continue;
+                merge(&pile, i, j);
+                i = -1;
+                break;
+            }
+        }
+        int on_stage = -1; // all that touch the stage become one
+        for (int i = 0; i < pile.count; i++) {
+            if (!area_touches(pile.areas[i], area_intersect(viewport, whole))) continue;
+            if (on_stage < 0)
+                on_stage = i;
+            else
+                merge(&pile, on_stage, i--);
+        }
         merge_cheapest(&pile, pile.count > DAMAGE_RECTANGLES ? ANY_WASTE : WORTH_A_RECTANGLE);
     }
     damage->count = pile.count;
@@ -320,33 +302,6 @@ void draw_destroy(struct draw *draw)
     free(draw);
 }
 
-/// Draws `visible`, a part of the stage, at `scale` (below 1) of the viewport's pixels and enlarges it. Returns false and draws nothing if
-/// the driver cannot create the framebuffer.
-static bool draw_reduced(struct draw *draw, const struct draw_input *input, struct area to, struct area visible)
-{
-    const float scale = input->stage_scale;
-    const int width = area_max(1, (int)lroundf((float)(to.x1 - to.x0) * scale));
-    const int height = area_max(1, (int)lroundf((float)(to.y1 - to.y0) * scale));
-    GLint screen = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &screen);
-    bool drawn = target_bind(&draw->target, width, height);
-    if (drawn) {
-        // The pixels of the small picture from which `visible` is interpolated.
-        const int x = to.x0, y = to.y0;
-        const struct area needed = {
-            (int)floorf((float)(visible.x0 - x) * scale) - 1, (int)floorf((float)(visible.y0 - y) * scale) - 1,
-            (int)ceilf((float)(visible.x1 - x) * scale) + 1, (int)ceilf((float)(visible.y1 - y) * scale) + 1};
-        gl_scissor(area_intersect(needed, (struct area){0, 0, width, height}), height);
-        stage_draw(draw->stage, input->stage, 0, 0, width, height);
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)screen);
-        gl_scissor(visible, input->height);
-        glBlitFramebuffer(0, 0, width, height, to.x0, input->height - to.y1, to.x1, input->height - to.y0,
-                          GL_COLOR_BUFFER_BIT, GL_LINEAR);
-    }
-    glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)screen);
-    return drawn;
-}
-
 /// The bottom layer of a rectangle: panel colour, and the stage in its viewport.
 static void draw_below(struct draw *draw, const struct draw_input *input, struct area area, struct area viewport)
 {
@@ -357,7 +312,29 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
         gl_clear(theme()->panel | 0xFF);
     }
     if (area_empty(on_stage)) return;
-    if (is_reduced(input->stage_scale) && draw_reduced(draw, input, viewport, on_stage)) return;
+    if (is_reduced(input->stage_scale)) { // drawn smaller, and enlarged
+        const float scale = input->stage_scale;
+        const int x = viewport.x0, y = viewport.y0;
+        const int width = area_max(1, (int)lroundf((float)(viewport.x1 - x) * scale));
+        const int height = area_max(1, (int)lroundf((float)(viewport.y1 - y) * scale));
+        GLint screen = 0;
+        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &screen);
+        const bool drawn = target_bind(&draw->target, width, height); // else the driver cannot create it
+        if (drawn) {
+            // The pixels of the small picture from which the visible part is interpolated.
+            const struct area needed = {
+                (int)floorf((float)(on_stage.x0 - x) * scale) - 1, (int)floorf((float)(on_stage.y0 - y) * scale) - 1,
+                (int)ceilf((float)(on_stage.x1 - x) * scale) + 1, (int)ceilf((float)(on_stage.y1 - y) * scale) + 1};
+            gl_scissor(area_intersect(needed, (struct area){0, 0, width, height}), height);
+            stage_draw(draw->stage, input->stage, 0, 0, width, height);
+            glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)screen);
+            gl_scissor(on_stage, input->height);
+            glBlitFramebuffer(0, 0, width, height, x, input->height - viewport.y1, viewport.x1, input->height - y,
+                              GL_COLOR_BUFFER_BIT, GL_LINEAR);
+        }
+        glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)screen);
+        if (drawn) return;
+    }
     gl_scissor(on_stage, input->height);
     stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, viewport.x1 - viewport.x0,
                viewport.y1 - viewport.y0);
@@ -451,36 +428,35 @@ struct picture {
     unsigned char *drawn, *pixels; ///< as drawn, bottom row first; the picture
 };
 
-static bool create_target(struct picture *picture, struct error *error)
-{
-    GLint largest = 0, before = 0;
-    const int width = FINE * picture->width, height = FINE * picture->height;
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-    if (picture->width < 1 || picture->height < 1 || width > largest || height > largest)
-        return fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d",
-                    largest / FINE, picture->width, picture->height);
-    glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
-    const bool complete = target_bind(&picture->target, width, height);
-    glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)before);
-    return complete || fail(error, ERROR_ENVIRONMENT, "the graphics driver makes no framebuffer of %d × %d pixels",
-                            width, height);
-}
-
 struct picture *picture_create(int width, int height, struct error *error)
 {
     struct picture *picture = need_zeroed(1, sizeof *picture);
     picture->width = width;
     picture->height = height;
-    if ((picture->stage = stage_renderer_create(error)) && create_target(picture, error)) {
-        const size_t bytes = 4 * (size_t)width * (size_t)height;
-        picture->buffer = gl_buffer(GL_PIXEL_PACK_BUFFER, FINE * FINE * bytes, NULL, GL_STREAM_READ);
-        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-        picture->drawn = need(FINE * FINE, bytes);
-        picture->pixels = need(bytes, 1);
-        return picture;
+    picture->stage = stage_renderer_create(error);
+    GLint largest = 0, before = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    bool done = picture->stage;
+    if (done && (width < 1 || height < 1 || FINE * width > largest || FINE * height > largest))
+        done = fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d",
+                    largest / FINE, width, height);
+    if (done) {
+        glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
+        done = target_bind(&picture->target, FINE * width, FINE * height) ||
+               fail(error, ERROR_ENVIRONMENT, "the graphics driver makes no framebuffer of %d × %d pixels",
+                    FINE * width, FINE * height);
+        glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)before);
     }
-    picture_destroy(picture);
-    return NULL;
+    if (!done) {
+        picture_destroy(picture);
+        return NULL;
+    }
+    const size_t bytes = 4 * (size_t)width * (size_t)height;
+    picture->buffer = gl_buffer(GL_PIXEL_PACK_BUFFER, FINE * FINE * bytes, NULL, GL_STREAM_READ);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    picture->drawn = need(FINE * FINE, bytes);
+    picture->pixels = need(bytes, 1);
+    return picture;
 }
 
 void picture_destroy(struct picture *picture)
@@ -522,29 +498,6 @@ void picture_draw(struct picture *picture, const struct stage_view *view, bool t
     glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)before);
 }
 
-static void average_row(const unsigned char *below, const unsigned char *above, int width, unsigned char *row)
-{
-    for (int x = 0; x < width; x++, below += 8, above += 8, row += 4) {
-        for (int k = 0; k < 3; k++)
-            row[k] = (unsigned char)((below[k] + below[k + 4] + above[k] + above[k + 4] + 2) / 4);
-        row[3] = 255;
-    }
-}
-
-/// Weights colours by coverage, so that edges do not darken towards the transparent background.
-static void weigh_row(const unsigned char *below, const unsigned char *above, int width, unsigned char *row)
-{
-    for (int x = 0; x < width; x++, below += 8, above += 8, row += 4) {
-        const int covered = below[3] + below[7] + above[3] + above[7];
-        for (int k = 0; k < 3; k++) {
-            const int sum =
-                below[k] * below[3] + below[k + 4] * below[7] + above[k] * above[3] + above[k + 4] * above[7];
-            row[k] = (unsigned char)(covered > 0 ? (sum + covered / 2) / covered : 0);
-        }
-        row[3] = (unsigned char)((covered + 2) / 4);
-    }
-}
-
 const unsigned char *picture_take(struct picture *picture, bool wait)
 {
     if (!wait && glClientWaitSync(picture->fence, 0, 0) == GL_TIMEOUT_EXPIRED) return NULL;
@@ -554,12 +507,20 @@ const unsigned char *picture_take(struct picture *picture, bool wait)
                        picture->drawn);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     for (int y = 0; y < picture->height; y++) {
-        const unsigned char *below = picture->drawn + FINE * (size_t)(picture->height - 1 - y) * stride;
+        const unsigned char *a = picture->drawn + FINE * (size_t)(picture->height - 1 - y) * stride, *b = a + stride;
         unsigned char *row = picture->pixels + 4 * (size_t)y * (size_t)picture->width;
-        if (picture->transparent) {
-            weigh_row(below, below + stride, picture->width, row);
-        } else {
-            average_row(below, below + stride, picture->width, row);
+        for (int x = 0; x < picture->width; x++, a += 8, b += 8, row += 4) {
+            // Coverage weights colours, so that edges do not darken towards a transparent background.
+            const int covered = picture->transparent ? a[3] + a[7] + b[3] + b[7] : 4 * 255;
+            for (int k = 0; k < 3; k++) {
+                if (picture->transparent) {
+                    const int sum = a[k] * a[3] + a[k + 4] * a[7] + b[k] * b[3] + b[k + 4] * b[7];
+                    row[k] = (unsigned char)(covered > 0 ? (sum + covered / 2) / covered : 0);
+                } else {
+                    row[k] = (unsigned char)((a[k] + a[k + 4] + b[k] + b[k + 4] + 2) / 4);
+                }
+            }
+            row[3] = (unsigned char)((covered + 2) / 4);
         }
     }
     return picture->pixels;

@@ -471,24 +471,6 @@ static void add_pair(const struct stroke *stroke, struct side_pair pair, float a
     add_beside(stroke, pair.at[1], -stroke->reach, along);
 }
 
-static void add_segment(struct stroke *stroke, struct side_pair from, float from_along, struct side_pair to,
-                        float to_along)
-{
-    uint32_t next = reserve(stroke->batch, 4, 6);
-    if (!stroke->linked || stroke->generation != stroke->batch->generation) {
-        add_pair(stroke, from, from_along);
-        stroke->left = next;
-        stroke->right = next + 1;
-        next += 2;
-    }
-    add_pair(stroke, to, to_along);
-    add_triangle(stroke->batch, stroke->left, stroke->right, next);
-    add_triangle(stroke->batch, next, stroke->right, next + 1);
-    stroke->left = next;
-    stroke->right = next + 1;
-    stroke->generation = stroke->batch->generation;
-}
-
 /// Fills the wedge between two quads, from the inner corner around the joint to the outer arc.
 static void add_fan(const struct stroke *stroke, struct line_point p, const struct joint *joint)
 {
@@ -561,7 +543,21 @@ static void add_stroke(struct stroke *stroke, struct polyline line)
         struct segment next = stops ? segment : segment_between(p[i], point_after(line, i));
         joint = stops ? cap_at(p[i], segment.direction, 0.5f, stroke->reach)
                       : joint_at(p[i], segment, next, stroke->reach);
-        if (visible) add_segment(stroke, from, from_along, joint.in, along);
+        if (visible) {
+            uint32_t corner = reserve(stroke->batch, 4, 6);
+            if (!stroke->linked || stroke->generation != stroke->batch->generation) {
+                add_pair(stroke, from, from_along);
+                stroke->left = corner;
+                stroke->right = corner + 1;
+                corner += 2;
+            }
+            add_pair(stroke, joint.in, along);
+            add_triangle(stroke->batch, stroke->left, stroke->right, corner);
+            add_triangle(stroke->batch, corner, stroke->right, corner + 1);
+            stroke->left = corner;
+            stroke->right = corner + 1;
+            stroke->generation = stroke->batch->generation;
+        }
         // A hairpin's inner corner lies far from the joint but beside both segments.
         if (!joint.smooth && (visible || is_visible(stroke, p[i], point_after(line, i))))
             add_fan(stroke, p[i], &joint);
@@ -664,29 +660,6 @@ static bool extend(struct cone *cone, vec2s p)
     return true;
 }
 
-/// Scales points to device pixels and drops those within TOLERANCE of the simplified line. Stops when `out` (`capacity` points, at least 3)
-/// is full; returns the number written. `read` is the number of input points used; if it is less than `count`, continue at point read − 1.
-/// Keeps both ends.
-static int simplify_line(const float *xy, int count, float scale, struct line_point *out, int capacity, int *read)
-{
-    struct cone cone = {.anchor = {{xy[0] * scale, xy[1] * scale}}};
-    out[0] = (struct line_point){.x = cone.anchor.x, .y = cone.anchor.y};
-    int written = 1, i = 1;
-    for (; i < count; i++) {
-        vec2s p = {{xy[2 * i] * scale, xy[2 * i + 1] * scale}};
-        vec2s before = cone.has_last ? cone.last : cone.anchor;
-        if (hypotf(p.x - before.x, p.y - before.y) < COINCIDENT) continue;
-        if (extend(&cone, p)) continue;
-        out[written++] = (struct line_point){.x = cone.last.x, .y = cone.last.y};
-        cone = (struct cone){.anchor = cone.last};
-        if (written == capacity) break;
-        extend(&cone, p);
-    }
-    if (i == count && cone.has_last) out[written++] = (struct line_point){.x = cone.last.x, .y = cone.last.y};
-    *read = i;
-    return written;
-}
-
 /// Adds a polyline in logical pixels; omits parts that cannot touch `visible`.
 static void add_line(const struct painter *painter, const struct draw_command *command, const float *xy,
                      struct area visible)
@@ -702,7 +675,21 @@ static void add_line(const struct painter *painter, const struct draw_command *c
         .reach = 0.5f * fmaxf(width, 1.0f) + 0.5f,
     };
     for (int left = command->count, read = 0; left > 1; xy += 2 * (read - 1), left -= read - 1) {
-        const int count = simplify_line(xy, left, scale, p, LINE_POINTS - 1, &read);
+        // Device pixels, without points within TOLERANCE of the simplified line, whose ends stay. `read` is the number of points used; the
+        // next piece continues at the last of them.
+        struct cone cone = {.anchor = {{xy[0] * scale, xy[1] * scale}}};
+        p[0] = (struct line_point){.x = cone.anchor.x, .y = cone.anchor.y};
+        int count = 1;
+        for (read = 1; read < left; read++) {
+            const vec2s at = {{xy[2 * read] * scale, xy[2 * read + 1] * scale}};
+            const vec2s before = cone.has_last ? cone.last : cone.anchor;
+            if (hypotf(at.x - before.x, at.y - before.y) < COINCIDENT || extend(&cone, at)) continue;
+            p[count++] = (struct line_point){.x = cone.last.x, .y = cone.last.y};
+            cone = (struct cone){.anchor = cone.last};
+            if (count == LINE_POINTS - 1) break;
+            extend(&cone, at);
+        }
+        if (read == left && cone.has_last) p[count++] = (struct line_point){.x = cone.last.x, .y = cone.last.y};
         const bool dashed = on > 0.0f && off > 0.0f;
         float length = 0.0f;
         for (int i = 1; dashed && i < count; i++) length += hypotf(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);

@@ -63,47 +63,6 @@ static void mark_front(struct posed *mesh, const float eye[3])
 
 // --- imported characters and foxes
 
-static void add_gltf_part(struct posed *mesh, const struct gltf *gltf, int node, const struct gltf_part *part)
-{
-    static const float white[4] = {1, 1, 1, 1};
-    static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
-    const struct gltf_material *material = part->material < 0 ? &plain : &gltf->materials[part->material];
-    const bool is_plain =
-        material->image < 0 && material->cutoff <= 0.0f && !material->blended && !material->double_sided;
-    const bool is_face = part->mark && strcmp(material->name, "face") == 0;
-    struct posed_part *added = &mesh->parts[mesh->part_count++];
-    *added = (struct posed_part){.first = mesh->index_count,
-                                 .end = mesh->index_count + part->index_count,
-                                 .vertex = mesh->vertex_count,
-                                 .node = node,
-                                 .program = is_face      ? PROGRAM_FACE
-                                            : part->mark ? PROGRAM_COAT
-                                            : is_plain   ? PROGRAM_PLAIN
-                                                         : PROGRAM_PICTURED,
-                                 .material = part->material,
-                                 .cutoff = material->cutoff,
-                                 .blended = material->blended,
-                                 .both_sides = material->double_sided};
-    memcpy(added->base, material->color, sizeof added->base);
-    memcpy(mesh->place + added->vertex, part->position, (size_t)part->vertex_count * sizeof *mesh->place);
-    for (int v = 0; v < part->vertex_count; v++) {
-        struct posed_look *look = &mesh->looks[added->vertex + v];
-        if (part->mark) {
-            const float *mark = part->mark[v], *place = part->position[v], *fur = part->fur[v];
-            *look =
-                (struct posed_look){{place[0], place[1], place[2], fur[0]}, {mark[0], mark[1]}, {mark[2], fur[1]}, 1};
-            continue;
-        }
-        memcpy(look->color, part->color ? part->color[v] : white, sizeof look->color);
-        look->cover = 1;
-        if (part->uv) memcpy(look->uv, part->uv[v], sizeof look->uv);
-    }
-    for (int i = 0; i < part->index_count; i++)
-        mesh->indices[added->first + i] = (uint32_t)added->vertex + part->indices[i];
-    mesh->vertex_count += part->vertex_count;
-    mesh->index_count = added->end;
-}
-
 void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
 {
     size_t vertices = 0, indices = 0, parts = 0;
@@ -123,7 +82,46 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
         const int from = mesh->part_count;
         if (gltf->nodes[n].mesh < 0) continue;
         const struct gltf_mesh *shown = &gltf->meshes[gltf->nodes[n].mesh];
-        for (int p = 0; p < shown->part_count; p++) add_gltf_part(mesh, gltf, n, &shown->parts[p]);
+        for (int p = 0; p < shown->part_count; p++) {
+            const struct gltf_part *part = &shown->parts[p];
+            static const float white[4] = {1, 1, 1, 1};
+            static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
+            const struct gltf_material *material = part->material < 0 ? &plain : &gltf->materials[part->material];
+            const bool is_plain =
+                material->image < 0 && material->cutoff <= 0.0f && !material->blended && !material->double_sided;
+            const bool is_face = part->mark && strcmp(material->name, "face") == 0;
+            struct posed_part *added = &mesh->parts[mesh->part_count++];
+            *added = (struct posed_part){.first = mesh->index_count,
+                                         .end = mesh->index_count + part->index_count,
+                                         .vertex = mesh->vertex_count,
+                                         .node = n,
+                                         .program = is_face      ? PROGRAM_FACE
+                                                    : part->mark ? PROGRAM_COAT
+                                                    : is_plain   ? PROGRAM_PLAIN
+                                                                 : PROGRAM_PICTURED,
+                                         .material = part->material,
+                                         .cutoff = material->cutoff,
+                                         .blended = material->blended,
+                                         .both_sides = material->double_sided};
+            memcpy(added->base, material->color, sizeof added->base);
+            memcpy(mesh->place + added->vertex, part->position, (size_t)part->vertex_count * sizeof *mesh->place);
+            for (int v = 0; v < part->vertex_count; v++) {
+                struct posed_look *look = &mesh->looks[added->vertex + v];
+                if (part->mark) {
+                    const float *mark = part->mark[v], *place = part->position[v], *fur = part->fur[v];
+                    *look = (struct posed_look){
+                        {place[0], place[1], place[2], fur[0]}, {mark[0], mark[1]}, {mark[2], fur[1]}, 1};
+                    continue;
+                }
+                memcpy(look->color, part->color ? part->color[v] : white, sizeof look->color);
+                look->cover = 1;
+                if (part->uv) memcpy(look->uv, part->uv[v], sizeof look->uv);
+            }
+            for (int i = 0; i < part->index_count; i++)
+                mesh->indices[added->first + i] = (uint32_t)added->vertex + part->indices[i];
+            mesh->vertex_count += part->vertex_count;
+            mesh->index_count = added->end;
+        }
         find_neighbours(mesh, from);
     }
 }
@@ -258,20 +256,6 @@ int skirt_next(const struct posed *mesh, const struct posed_part *part, int from
     return part->end;
 }
 
-/// The skirt's offset at one end of an edge: one pixel, across the line of sight. `side` points away from the triangle.
-static vec3s step_out(const struct skirt_vertex *end, vec3s edge, float side, bool open, const float eye[3],
-                      float seam)
-{
-    const vec3s ray = glms_vec3_sub(vec3_from(end->place), vec3_from(eye));
-    const vec3s off_edge = glms_vec3_scale(glms_vec3_normalize(glms_vec3_cross(ray, edge)), side);
-    const vec3s normal = vec3_from(end->normal);
-    const float depth = glms_vec3_dot(normal, ray) / glms_vec3_norm2(ray);
-    const vec3s along = glms_vec3_normalize(glms_vec3_sub(normal, glms_vec3_scale(ray, depth)));
-    // Along the vertex normal, so that skirts of consecutive edges meet. If that does not point away from the edge, across the edge.
-    const vec3s out = open || glms_vec3_dot(along, off_edge) < 0.3f ? off_edge : along;
-    return glms_vec3_scale(out, seam * glms_vec3_norm(ray));
-}
-
 /// The surface at one end of an edge, with the normal towards the eye if `back`. Without normals it is the triangle's.
 static void start_end(const struct posed *mesh, const struct posed_part *part, int corner, bool back,
                       struct skirt_vertex *out)
@@ -289,19 +273,6 @@ static void start_end(const struct posed *mesh, const struct posed_part *part, i
     }
 }
 
-/// Moves the texture coordinate half a pixel into the triangle: a lookup at its edge may hit the opposite side of the picture.
-static void pull_in(const struct posed *mesh, int corner, const float eye[3], float seam, struct skirt_vertex ends[2])
-{
-    const uint32_t third = mesh->indices[next_corner(next_corner(corner))];
-    const vec3s from = vec3_from(ends[0].place), edge = glms_vec3_sub(vec3_from(ends[1].place), from);
-    const float area = glms_vec3_norm(glms_vec3_cross(edge, glms_vec3_sub(vec3_from(mesh->place[third]), from)));
-    const float pixel = seam * glms_vec3_distance(from, vec3_from(eye));
-    const float share = fminf(0.5f * pixel * glms_vec3_norm(edge) / fmaxf(area, 1e-12f), 0.5f);
-    for (int e = 0; e < 2; e++) {
-        for (int k = 0; k < 2; k++) ends[e].look.uv[k] += share * (mesh->looks[third].uv[k] - ends[e].look.uv[k]);
-    }
-}
-
 void skirt_hang(const struct posed *mesh, const struct posed_part *part, int corner, const float eye[3], float seam,
                 struct skirt_vertex out[SKIRT_CORNERS])
 {
@@ -309,10 +280,24 @@ void skirt_hang(const struct posed *mesh, const struct posed_part *part, int cor
     const float side = front == part->mirrored ? -1.0f : 1.0f; // the triangle is to the left of its edge
     start_end(mesh, part, corner, !front, &out[0]);
     start_end(mesh, part, next_corner(corner), !front, &out[1]);
-    pull_in(mesh, corner, eye, seam, out);
-    const vec3s edge = glms_vec3_sub(vec3_from(out[1].place), vec3_from(out[0].place));
+
+    // Texture coordinates move half a pixel into the triangle: a lookup at its edge may hit the opposite side of the picture.
+    const uint32_t third = mesh->indices[next_corner(next_corner(corner))];
+    const vec3s from = vec3_from(out[0].place), edge = glms_vec3_sub(vec3_from(out[1].place), from);
+    const float area = glms_vec3_norm(glms_vec3_cross(edge, glms_vec3_sub(vec3_from(mesh->place[third]), from)));
+    const float pixel = seam * glms_vec3_distance(from, vec3_from(eye));
+    const float share = fminf(0.5f * pixel * glms_vec3_norm(edge) / fmaxf(area, 1e-12f), 0.5f);
     for (int e = 0; e < 2; e++) {
-        const vec3s off = step_out(&out[e], edge, side, open, eye, seam);
+        for (int k = 0; k < 2; k++) out[e].look.uv[k] += share * (mesh->looks[third].uv[k] - out[e].look.uv[k]);
+
+        // One pixel out, across the line of sight: along the vertex normal, so that skirts of consecutive edges meet. If that does not point
+        // away from the edge, across the edge.
+        const vec3s ray = glms_vec3_sub(vec3_from(out[e].place), vec3_from(eye)), normal = vec3_from(out[e].normal);
+        const vec3s off_edge = glms_vec3_scale(glms_vec3_normalize(glms_vec3_cross(ray, edge)), side);
+        const float depth = glms_vec3_dot(normal, ray) / glms_vec3_norm2(ray);
+        const vec3s along = glms_vec3_normalize(glms_vec3_sub(normal, glms_vec3_scale(ray, depth)));
+        const vec3s way = open || glms_vec3_dot(along, off_edge) < 0.3f ? off_edge : along;
+        const vec3s off = glms_vec3_scale(way, seam * glms_vec3_norm(ray));
         struct skirt_vertex *outer = &out[3 - e];
         *outer = out[e];
         outer->look.cover = 0.0f;

@@ -504,13 +504,6 @@ static void draw_skirts(const struct stage_renderer *stage, const struct posed *
     glEnable(GL_CULL_FACE);
 }
 
-static bool has_program(const struct posed *mesh, enum stage_program program, bool skirts)
-{
-    int p = mesh->part_count;
-    while (--p >= 0 && program_of(&mesh->parts[p], skirts) != program) continue;
-    return p >= 0;
-}
-
 /// `scale` is device pixels per logical pixel. `seam` is metres per pixel at a distance of 1 m in the pass that softens outlines, else 0.
 static void draw_meshes(const struct stage_renderer *stage, const struct stage_view *view, float scale, float seam)
 {
@@ -521,7 +514,9 @@ static void draw_meshes(const struct stage_renderer *stage, const struct stage_v
         const struct program *program = &stage->programs[which];
         for (int s = 0; s < stage->shown_count; s++) {
             const struct shown *shown = &stage->shown[s];
-            if (!has_program(shown->mesh, which, second)) continue;
+            int p = shown->mesh->part_count;
+            while (--p >= 0 && program_of(&shown->mesh->parts[p], second) != which) continue;
+            if (p < 0) continue;
             glUseProgram(program->name);
             glUniformMatrix4fv(program->at[AT_CLIP_FROM_WORLD], 1, GL_FALSE, clip_from_world.raw[0]);
             glUniform3fv(program->at[AT_EYE], 1, view->eye);
