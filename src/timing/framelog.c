@@ -308,114 +308,85 @@ bool framelog_close(struct framelog *log, FILE *summary, struct error *error)
 
 // --- reading logs of one or several runs
 
-/// Where the reader is.
-struct log_reader {
-    const char *path;
-    int line;
-    int warm_up;                      ///< of this run
-    int seen;                         ///< frames of this run, warm-up included
-    bool named;                       ///< this run's column names were read
-    int column[COLUMN_COUNT], fields; ///< the column of each field of a line
-    int capacity;                     ///< rows that there is room for
-    struct timing_log *log;
-    struct error *error;
-};
-
-static bool bad_log(const struct log_reader *at, const char *expected, const char *got)
+static bool bad_log(struct error *error, const char *path, int line, const char *expected, const char *got)
 {
-    return fail(at->error, ERROR_INPUT, "%s:%d: expected %s, got '%.80s'", at->path, at->line, expected, got);
-}
-
-static bool read_comment(struct log_reader *at, const char *text)
-{
-    static const char schema[] = "# schema: ", warm_up[] = "# warm_up_frames: ", solver[] = "# solver: ";
-    if (strncmp(text, schema, sizeof schema - 1) == 0) {
-        const char *name = text + sizeof schema - 1;
-        if (strcmp(name, TIMING_SCHEMA) != 0 && strcmp(name, TIMING_SCHEMA_BEFORE) != 0) {
-            return bad_log(at, "the schema " TIMING_SCHEMA " or " TIMING_SCHEMA_BEFORE, name);
-        }
-        at->log->runs++;
-        at->warm_up = at->seen = 0;
-        at->named = false;
-    } else if (strncmp(text, warm_up, sizeof warm_up - 1) == 0) {
-        at->warm_up = atoi(text + sizeof warm_up - 1);
-    } else if (strncmp(text, solver, sizeof solver - 1) == 0) {
-        const char *name = text + sizeof solver - 1;
-        char *solvers = at->log->solvers; // those that the log names
-        const size_t used = strlen(solvers), room = sizeof at->log->solvers - used;
-        if (strcmp(name, "NA") != 0 && !strstr(solvers, name))
-            snprintf(solvers + used, room, "%s%s", used ? ", " : "", name);
-    }
-    return true;
-}
-
-/// Columns are found by name, so that logs older than a column can be read.
-static bool read_names(struct log_reader *at, const char *text)
-{
-    if (at->log->runs == 0) return bad_log(at, "a timing log's '# schema:' line first", text);
-    bool has_frame = false, has_time = false;
-    at->fields = 0;
-    for (const char *name = text; name; name = strchr(name, ',') ? strchr(name, ',') + 1 : NULL) {
-        const size_t length = strcspn(name, ",");
-        int column = COLUMN_COUNT - 1;
-        while (column >= 0 && (strlen(timing_columns[column].name) != length ||
-                               strncmp(timing_columns[column].name, name, length) != 0))
-            column--;
-        if (column < 0 || at->fields == COLUMN_COUNT) return bad_log(at, "the column names of " TIMING_SCHEMA, text);
-        has_frame |= column == COLUMN_FRAME;
-        has_time |= column == COLUMN_FRAME_MS;
-        at->column[at->fields++] = column;
-    }
-    if (!has_frame || !has_time) return bad_log(at, "the column names of " TIMING_SCHEMA, text);
-    at->named = true;
-    return true;
-}
-
-static bool read_row(struct log_reader *at, char *text)
-{
-    if (at->seen++ < at->warm_up) return true;
-    struct timing_log *log = at->log;
-    if (log->rows == at->capacity) {
-        if (at->capacity > INT_MAX / 2 / COLUMN_COUNT)
-            return fail(at->error, ERROR_INPUT, "%s: too many frames", at->path);
-        const int capacity = at->capacity ? 2 * at->capacity : 1024;
-        double *values = realloc(log->values, (size_t)capacity * COLUMN_COUNT * sizeof *values);
-        if (values) log->values = values;
-        int *run = realloc(log->run, (size_t)capacity * sizeof *run);
-        if (run) log->run = run;
-        if (!values || !run) return fail(at->error, ERROR_ENVIRONMENT, "%s: out of memory", at->path);
-        at->capacity = capacity;
-    }
-    double *row = &log->values[(size_t)log->rows * COLUMN_COUNT];
-    char *rest = text;
-    for (int c = 0; c < COLUMN_COUNT; c++) row[c] = NAN;
-    for (int i = 0; i < at->fields; i++) {
-        char *end = rest + 2;
-        bool missing = strncmp(rest, "NA", 2) == 0;
-        double value = missing ? NAN : strtod(rest, &end);
-        row[at->column[i]] = value;
-        if (end == rest || *end != (i + 1 < at->fields ? ',' : 0) || (!missing && !isfinite(value))) {
-            return bad_log(at, "a number or NA for each column, separated by commas", text);
-        }
-        rest = end + 1;
-    }
-    log->run[log->rows++] = log->runs - 1;
-    return true;
+    return fail(error, ERROR_INPUT, "%s:%d: expected %s, got '%.80s'", path, line, expected, got);
 }
 
 bool timing_log_read(const char *path, struct timing_log *log, struct error *error)
 {
+    static const char schema[] = "# schema: ", warm_up[] = "# warm_up_frames: ", solver[] = "# solver: ";
     *log = (struct timing_log){0};
-    struct log_reader at = {.path = path, .log = log, .error = error};
+    int line = 0, columns[COLUMN_COUNT], fields = 0, capacity = 0; // `columns`: of each field
+    int skipped = 0, seen = 0; // warm-up frames of this run, and its frames so far
+    bool named = false, good = true;
     FILE *file = fopen(path, "r");
     if (!file) return fail(error, ERROR_INPUT, "%s: %s", path, strerror(errno));
     char *text = NULL;
     size_t size = 0;
-    bool good = true;
     while (good && getline(&text, &size, file) >= 0) {
-        at.line++;
+        line++;
         text[strcspn(text, "\r\n")] = 0;
-        good = *text == '#' ? read_comment(&at, text) : at.named ? read_row(&at, text) : read_names(&at, text);
+        if (strncmp(text, schema, sizeof schema - 1) == 0) {
+            const char *name = text + sizeof schema - 1;
+            if (strcmp(name, TIMING_SCHEMA) != 0 && strcmp(name, TIMING_SCHEMA_BEFORE) != 0)
+                good = bad_log(error, path, line, "the schema " TIMING_SCHEMA " or " TIMING_SCHEMA_BEFORE, name);
+            log->runs++;
+            skipped = seen = 0;
+            named = false;
+        } else if (strncmp(text, warm_up, sizeof warm_up - 1) == 0) {
+            skipped = atoi(text + sizeof warm_up - 1);
+        } else if (strncmp(text, solver, sizeof solver - 1) == 0) {
+            const char *name = text + sizeof solver - 1;
+            const size_t used = strlen(log->solvers), room = sizeof log->solvers - used; // those that the log names
+            if (strcmp(name, "NA") != 0 && !strstr(log->solvers, name))
+                snprintf(log->solvers + used, room, "%s%s", used ? ", " : "", name);
+        } else if (*text == '#' || (named && seen++ < skipped)) {
+            continue;
+        } else if (!named) { // columns are found by name, so that logs older than a column can be read
+            if (log->runs == 0) good = bad_log(error, path, line, "a timing log's '# schema:' line first", text);
+            bool has_frame = false, has_time = false, known = true;
+            fields = 0;
+            for (const char *name = text; name && known; name = strchr(name, ',') ? strchr(name, ',') + 1 : NULL) {
+                const size_t length = strcspn(name, ",");
+                int column = COLUMN_COUNT - 1;
+                while (column >= 0 && (strlen(timing_columns[column].name) != length ||
+                                       strncmp(timing_columns[column].name, name, length) != 0))
+                    column--;
+                known = column >= 0 && fields < COLUMN_COUNT;
+                has_frame |= column == COLUMN_FRAME;
+                has_time |= column == COLUMN_FRAME_MS;
+                if (known) columns[fields++] = column;
+            }
+            named = known && has_frame && has_time;
+            if (good && !named) good = bad_log(error, path, line, "the column names of " TIMING_SCHEMA, text);
+        } else {
+            if (log->rows == capacity && capacity > INT_MAX / 2 / COLUMN_COUNT) {
+                good = fail(error, ERROR_INPUT, "%s: too many frames", path);
+                break;
+            }
+            if (log->rows == capacity) {
+                capacity = capacity ? 2 * capacity : 1024;
+                double *values = realloc(log->values, (size_t)capacity * COLUMN_COUNT * sizeof *values);
+                if (values) log->values = values;
+                int *run = realloc(log->run, (size_t)capacity * sizeof *run);
+                if (run) log->run = run;
+                good = (values && run) || fail(error, ERROR_ENVIRONMENT, "%s: out of memory", path);
+                if (!good) break;
+            }
+            double *row = &log->values[(size_t)log->rows * COLUMN_COUNT];
+            char *rest = text;
+            for (int c = 0; c < COLUMN_COUNT; c++) row[c] = NAN;
+            for (int i = 0; good && i < fields; i++) {
+                char *end = rest + 2;
+                const bool missing = strncmp(rest, "NA", 2) == 0;
+                const double value = row[columns[i]] = missing ? NAN : strtod(rest, &end);
+                if (end == rest || *end != (i + 1 < fields ? ',' : 0) || (!missing && !isfinite(value)))
+                    good = bad_log(error, path, line, "a number or NA for each column, separated by commas", text);
+                rest = end + 1;
+            }
+            log->run[log->rows++] = log->runs - 1;
+        }
     }
     if (good && ferror(file)) good = fail(error, ERROR_INPUT, "%s: %s", path, strerror(errno));
     if (good && log->rows == 0)
@@ -437,22 +408,19 @@ void timing_log_free(struct timing_log *log)
 
 enum { BAR = 50, BINS = 24, SLOWEST = 5 };
 
-/// The smallest of 1, 2 and 5 times a power of ten that is not below `least`.
-static double bin_width(double least)
+void distribution_print(const struct timing_log *log, const char *name, FILE *out)
 {
-    double power = pow(10, floor(log10(least)));
-    double times = least / power;
-    return power * (times <= 1 ? 1 : times <= 2 ? 2 : times <= 5 ? 5 : 10);
-}
+    double *values = need_zeroed((size_t)log->rows, sizeof *values);
+    summary_print(log, name, ~0U, out);
 
-/// Bars over steps that read well, at most BINS up to p99 and one for the rest.
-static void print_histogram(const struct timing_log *log, double *values, FILE *out)
-{
+    // Bars over steps that read well, at most BINS up to p99 and one for the rest.
     const int count = column_values(log, COLUMN_FRAME_MS, values);
-    if (count == 0) return;
     statistics_sort(values, count);
     const double high = statistics_quantile(values, count, 0.99);
-    const double step = bin_width(fmax((high - values[0]) / BINS, 1e-3)), start = step * floor(values[0] / step);
+    const double least = fmax((high - values[0]) / BINS, 1e-3), power = pow(10, floor(log10(least)));
+    const double times = least / power; // steps are 1, 2 or 5 times a power of ten
+    const double step = power * (times <= 1 ? 1 : times <= 2 ? 2 : times <= 5 ? 5 : 10);
+    const double start = step * floor(values[0] / step);
     const int bins = (int)fmin(floor((high - start) / step) + 2, BINS + 2);
     const int decimals = (int)fmax(0, ceil(-log10(step) - 1e-9));
     int counts[BINS + 2] = {0}, most = 0;
@@ -465,11 +433,9 @@ static void print_histogram(const struct timing_log *log, double *values, FILE *
         for (int k = 0; k < (int)ceil((double)BAR * counts[i] / most); k++) fputs("█", out);
         fputc('\n', out);
     }
-}
+    free(values);
 
-/// For the slowest frames, the stages that took at least a tenth.
-static void print_slowest(const struct timing_log *log, FILE *out)
-{
+    // For the slowest frames, the stages that took at least a tenth.
     int shown[SLOWEST];
     fprintf(out, "\nslowest frames\n");
     for (int n = 0; n < SLOWEST && n < log->rows; n++) {
@@ -490,13 +456,4 @@ static void print_slowest(const struct timing_log *log, FILE *out)
         }
         fputc('\n', out);
     }
-}
-
-void distribution_print(const struct timing_log *log, const char *name, FILE *out)
-{
-    double *values = need_zeroed((size_t)log->rows, sizeof *values);
-    summary_print(log, name, ~0U, out);
-    print_histogram(log, values, out);
-    print_slowest(log, out);
-    free(values);
 }
