@@ -3,9 +3,10 @@
 #include <stdint.h>
 #include <string.h>
 
+static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 void base64_encode(const void *bytes, size_t size, char *text)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const unsigned char *from = bytes;
     for (size_t i = 0; i < size; i += 3) {
         uint32_t bits = 0;
@@ -15,14 +16,6 @@ void base64_encode(const void *bytes, size_t size, char *text)
     *text = '\0';
 }
 
-static int digit_of(char c)
-{
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
 bool base64_decode(const char *text, void *bytes, size_t *size)
 {
     unsigned char *to = bytes;
@@ -30,9 +23,9 @@ bool base64_decode(const char *text, void *bytes, size_t *size)
     int pending = 0;
     *size = 0;
     for (; *text && *text != '='; text++) {
-        const int digit = digit_of(*text);
-        if (digit < 0) return false;
-        bits = bits << 6 | (uint32_t)digit;
+        const char *digit = strchr(digits, *text);
+        if (!digit) return false;
+        bits = bits << 6 | (uint32_t)(digit - digits);
         pending += 6;
         if (pending < 8) continue;
         pending -= 8;

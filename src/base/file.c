@@ -41,69 +41,49 @@ static bool fail_no_file(struct error *error, enum error_kind kind, const char *
                 S_ISDIR(mode) ? "a directory" : "something else (a device or a pipe)");
 }
 
-/// Opens a regular file without blocking (a FIFO would wait for a writer).
-static int open_regular(const char *path, struct stat *status, struct error *error)
-{
-    int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) {
-        fail_to(error, ERROR_INPUT, "be opened", path, errno);
-        return -1;
-    }
-    file_note_read(path, NULL);
-    if (fstat(file, status) == 0 && S_ISREG(status->st_mode)) return file;
-    fail_no_file(error, ERROR_INPUT, path, status->st_mode);
-    close(file);
-    return -1;
-}
-
 static bool fail_too_large(const char *path, size_t limit, struct error *error)
 {
     return fail(error, ERROR_INPUT, "%s: expected at most %zu MiB, got a larger file", path, limit >> 20);
 }
 
-/// Reads to the end, or one byte past the limit; `*size` is what to expect. The caller owns `*data` in any case.
-static bool read_to_end(int file, const char *path, size_t limit, char **data, size_t *size, struct error *error)
+bool file_read(const char *path, size_t limit, char **data, size_t *size, struct error *error)
 {
-    size_t capacity = *size;
+    struct stat status;
+    *data = NULL;
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // a FIFO would wait for a writer
+    if (file < 0) return fail_to(error, ERROR_INPUT, "be opened", path, errno);
+    file_note_read(path, NULL);
+    bool done = false, good = fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+    if (!good) fail_no_file(error, ERROR_INPUT, path, status.st_mode);
+    if (good && (size_t)status.st_size > limit) good = fail_too_large(path, limit, error);
+
+    // To the end, or one byte past the limit.
+    size_t capacity = status.st_size > 0 ? (size_t)status.st_size + 1 : READ_BLOCK;
     *size = 0;
-    *data = malloc(capacity + 1);
-    while (*data && *size <= limit) {
-        ssize_t got = read(file, *data + *size, capacity - *size);
+    if (good) *data = malloc(capacity + 1);
+    while (good && !done && *data && *size <= limit) {
+        const ssize_t got = read(file, *data + *size, capacity - *size);
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return fail_to(error, ERROR_INPUT, "be read", path, errno);
-        *size += (size_t)got;
-        if (got == 0 && *size < capacity) {
-            (*data)[*size] = '\0';
-            return true;
+        if (got < 0) {
+            good = fail_to(error, ERROR_INPUT, "be read", path, errno);
+            break;
         }
+        *size += (size_t)got;
+        done = got == 0 && *size < capacity;
+        if (done) (*data)[*size] = '\0';
         if (*size < capacity) continue;
         capacity += capacity;
         char *larger = realloc(*data, capacity + 1);
         if (!larger) free(*data);
         *data = larger;
     }
-    return *data ? fail_too_large(path, limit, error) : fail_to(error, ERROR_ENVIRONMENT, "be read", path, ENOMEM);
-}
-
-bool file_read(const char *path, size_t limit, char **data, size_t *size, struct error *error)
-{
-    struct stat status;
-    int file = open_regular(path, &status, error);
-    *data = NULL;
-    if (file < 0) return false;
-    bool done = false;
-    if ((size_t)status.st_size > limit) {
-        fail_too_large(path, limit, error);
-    } else {
-        *size = status.st_size > 0 ? (size_t)status.st_size + 1 : READ_BLOCK;
-        done = read_to_end(file, path, limit, data, size, error);
-    }
+    if (good && !*data) good = fail_to(error, ERROR_ENVIRONMENT, "be read", path, ENOMEM);
+    if (good && !done) fail_too_large(path, limit, error);
     close(file);
-    if (!done) {
-        free(*data);
-        *data = NULL;
-    }
-    return done;
+    if (done) return true;
+    free(*data);
+    *data = NULL;
+    return false;
 }
 
 size_t file_text_mark(const char *text) { return strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; }
@@ -215,34 +195,8 @@ bool file_check_unread(const char *path, struct error *error)
     return true;
 }
 
-/// Removes a file or folder left by a program that has ended. One of another machine is locked while its program runs.
-static void remove_stale(int folder, const char *name)
-{
-    long owner;
-    int number, end = 0;
-    if (sscanf(name, ".wiggly-%ld-%d.tmp%n", &owner, &number, &end) != 2 || end == 0 || name[end]) return;
-    if (owner <= 0 || owner == (long)getpid() || kill((pid_t)owner, 0) == 0 || errno != ESRCH) return;
-    // Open for writing, though nothing is written: otherwise NFS cannot lock it.
-    int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0 && errno == EISDIR) file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_DIRECTORY | O_CLOEXEC);
-    struct stat status;
-    if (file < 0) return;
-    if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0) {
-        const bool is_folder = S_ISDIR(status.st_mode); // which file_folder_beside() has made
-        const int own = is_folder ? dup(file) : -1;
-        DIR *directory = own >= 0 ? fdopendir(own) : NULL;
-        for (const struct dirent *entry; directory && (entry = readdir(directory)) != NULL;)
-            unlinkat(file, entry->d_name, 0);
-        if (directory)
-            closedir(directory);
-        else if (own >= 0)
-            close(own);
-        unlinkat(folder, name, is_folder ? AT_REMOVEDIR : 0);
-    }
-    close(file);
-}
-
-/// Removes such files beside the target, once for each folder that is written to in turn.
+/// Removes files and folders beside the target that programs which have ended left, once for each folder that is written to in turn. One of
+/// another machine is locked while its program runs.
 static void sweep_stale(const char *target)
 {
     static _Thread_local uint64_t swept;
@@ -252,8 +206,32 @@ static void sweep_stale(const char *target)
     swept = folder;
     free(path);
     if (!directory) return;
-    for (const struct dirent *entry; (entry = readdir(directory)) != NULL;)
-        remove_stale(dirfd(directory), entry->d_name);
+    for (const struct dirent *entry; (entry = readdir(directory)) != NULL;) {
+        const char *name = entry->d_name;
+        long owner;
+        int number, end = 0;
+        if (sscanf(name, ".wiggly-%ld-%d.tmp%n", &owner, &number, &end) != 2 || end == 0 || name[end]) continue;
+        if (owner <= 0 || owner == (long)getpid() || kill((pid_t)owner, 0) == 0 || errno != ESRCH) continue;
+        // Open for writing, though nothing is written: otherwise NFS cannot lock it.
+        int file = openat(dirfd(directory), name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (file < 0 && errno == EISDIR)
+            file = openat(dirfd(directory), name, O_RDONLY | O_NOFOLLOW | O_DIRECTORY | O_CLOEXEC);
+        struct stat status;
+        if (file < 0) continue;
+        if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0) {
+            const bool is_folder = S_ISDIR(status.st_mode); // which file_folder_beside() has made
+            const int own = is_folder ? dup(file) : -1;
+            DIR *inner = own >= 0 ? fdopendir(own) : NULL;
+            for (const struct dirent *left; inner && (left = readdir(inner)) != NULL;)
+                unlinkat(file, left->d_name, 0);
+            if (inner)
+                closedir(inner);
+            else if (own >= 0)
+                close(own);
+            unlinkat(dirfd(directory), name, is_folder ? AT_REMOVEDIR : 0);
+        }
+        close(file);
+    }
     closedir(directory);
 }
 
@@ -289,7 +267,7 @@ static int create_beside(const char *target, bool is_folder, mode_t mode, char *
                    : mkdir(*temporary, mode) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
                                                   : -1;
         if (file >= 0) {
-            flock(file, LOCK_EX | LOCK_NB); // shows remove_stale() that it is in use
+            flock(file, LOCK_EX | LOCK_NB); // shows sweep_stale() that it is in use
             return file;
         }
         int cause = errno;
@@ -514,28 +492,20 @@ bool path_folder(const char *path, char folder[PATH_LIMIT])
     return true;
 }
 
-/// The absolute path of a folder; if it does not exist, links and dots stay.
-static bool absolute_folder(const char *folder, char absolute[PATH_LIMIT])
-{
-    char working[PATH_LIMIT];
-    if (strlen(folder) >= PATH_LIMIT) return false;
-    if (realpath(folder, absolute)) return true;
-    if (folder[0] == '/') {
-        strcpy(absolute, folder);
-        return true;
-    }
-    return getcwd(working, sizeof working) && snprintf(absolute, PATH_LIMIT, "%s/%s", working, folder) < PATH_LIMIT;
-}
-
 bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT])
 {
-    char base[PATH_LIMIT];
+    char real[PATH_LIMIT], working[PATH_LIMIT] = "";
     if (path[0] == '/') {
         if (strlen(path) >= PATH_LIMIT) return false;
         strcpy(absolute, path);
-    } else {
-        if (!absolute_folder(folder && folder[0] ? folder : ".", base)) return false;
-        if (snprintf(absolute, PATH_LIMIT, "%s/%s", base, path) >= PATH_LIMIT) return false;
+    } else { // of a folder that does not exist, links and dots stay
+        if (!folder || !folder[0]) folder = ".";
+        if (strlen(folder) >= PATH_LIMIT) return false;
+        const bool exists = realpath(folder, real);
+        if (!exists && folder[0] != '/' && !getcwd(working, sizeof working)) return false;
+        if (snprintf(absolute, PATH_LIMIT, "%s%s%s/%s", working, *working ? "/" : "", exists ? real : folder, path) >=
+            PATH_LIMIT)
+            return false;
     }
 
     char *out = absolute; // without ".", ".." and repeated slashes

@@ -12,16 +12,6 @@ static void find_symbol(void *library, const char *name, void *function)
     memcpy(function, &symbol, sizeof symbol);
 }
 
-/// At its first call OpenBLAS allocates a buffer of 128 MiB and keeps it; without memory it retries for ever. So the call is made here, after
-/// checking that there is enough.
-static bool take_buffer(const struct lapack *lapack)
-{
-    if (!need_has_room((size_t)160 << 20)) return false;
-    double one = 1, sum = 0;
-    lapack->dsyrk(LAPACK_ROWS_FIRST, BLAS_LOWER, BLAS_PLAIN, 1, 1, 1, &one, 1, 0, &sum, 1);
-    return true;
-}
-
 bool lapack_load(struct lapack *lapack, char *description, size_t size)
 {
     *lapack = (struct lapack){0};
@@ -42,11 +32,15 @@ bool lapack_load(struct lapack *lapack, char *description, size_t size)
     if (!whole) {
         lapack_unload(lapack);
         snprintf(description, size, "not found (install liblapacke and libopenblas0)");
-    } else if (!take_buffer(lapack)) {
+    } else if (!need_has_room((size_t)160 << 20)) {
         lapack_unload(lapack);
         snprintf(description, size, "not enough memory for OpenBLAS's buffer");
         return false;
     } else {
+        // At its first call OpenBLAS allocates a buffer of 128 MiB and keeps it; without memory it retries for ever. So the call is made here,
+        // after checking that there is enough.
+        double one = 1, sum = 0;
+        lapack->dsyrk(LAPACK_ROWS_FIRST, BLAS_LOWER, BLAS_PLAIN, 1, 1, 1, &one, 1, 0, &sum, 1);
         snprintf(description, size, "%s, one thread", get_config ? get_config() : "liblapacke.so.3");
     }
     return whole;
