@@ -6,6 +6,7 @@
 #include "base/need.h"
 #include "export/form.h"
 #include "model/gltf.h"
+#include "model/vector.h"
 #include <ctype.h>
 #include <math.h>
 #include <stddef.h>
@@ -182,13 +183,11 @@ static void rest_of(const struct usda_model *model, int number, double m[16])
 
     // In double precision, columns first.
     const struct gltf_place *place = &node.place;
-    const double x = (double)place->rotation[0], y = (double)place->rotation[1], z = (double)place->rotation[2],
-                 w = (double)place->rotation[3];
-    const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-                                 {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-                                 {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    double q[4], turned[9];
+    for (int k = 0; k < 4; k++) q[k] = (double)place->rotation[k];
+    quat_matrix(q, turned);
     for (int c = 0; c < 3; c++) {
-        for (int r = 0; r < 3; r++) m[4 * c + r] = (double)place->scale[c] * turned[c][r];
+        for (int r = 0; r < 3; r++) m[4 * c + r] = (double)place->scale[c] * turned[3 * c + r];
         m[4 * c + 3] = 0;
         m[12 + c] = (double)place->translation[c];
     }

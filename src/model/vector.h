@@ -24,6 +24,16 @@ static inline mat4s mat4_from(const float m[16])
     return matrix;
 }
 
+/// The rotation by a unit quaternion x y z w, column after column.
+static inline void quat_matrix(const double q[4], double m[9])
+{
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    const double turned[9] = {1 - 2 * (y * y + z * z), 2 * (x * y + w * z),     2 * (x * z - w * y),
+                              2 * (x * y - w * z),     1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
+                              2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};
+    memcpy(m, turned, sizeof turned);
+}
+
 /// (b − a) × (c − a): a triangle's normal, twice its area long.
 static inline vec3s triangle_normal(const float a[3], const float b[3], const float c[3])
 {

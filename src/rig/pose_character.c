@@ -94,16 +94,6 @@ static bool character_find(const struct posing *posing, const struct pin_query *
     return true;
 }
 
-static double area_of(const struct figure *figure, const uint32_t corner[3])
-{
-    const float(*position)[3] = (const float(*)[3])figure->character.position;
-    const float *a = position[corner[0]], *b = position[corner[1]], *c = position[corner[2]];
-    const double u[3] = {(double)(b[0] - a[0]), (double)(b[1] - a[1]), (double)(b[2] - a[2])};
-    const double v[3] = {(double)(c[0] - a[0]), (double)(c[1] - a[1]), (double)(c[2] - a[2])};
-    return maths_hypot(maths_hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]), u[0] * v[1] - u[1] * v[0]) /
-           2;
-}
-
 /// The coarse mesh is enough for a mean.
 static void character_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
@@ -113,7 +103,15 @@ static void character_weigh(const struct posing *posing, int rig, const int *spl
         double sum = 0, areas = 0;
         for (int t = 0; t + 2 < figure->coarse_count; t += 3) {
             const uint32_t *corner = &figure->coarse[t];
-            const double area = area_of(figure, corner);
+            const float(*position)[3] = (const float(*)[3])figure->character.position;
+            double u[3], v[3];
+            for (int k = 0; k < 3; k++) {
+                u[k] = (double)(position[corner[1]][k] - position[corner[0]][k]);
+                v[k] = (double)(position[corner[2]][k] - position[corner[0]][k]);
+            }
+            const double area = maths_hypot(maths_hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]),
+                                            u[0] * v[1] - u[1] * v[0]) /
+                                2;
             areas += area;
             for (int k = 0; k < 3; k++) {
                 pin_pull c = {{0}};
@@ -165,12 +163,6 @@ struct driven {
     double *re, *im;
     double *re_range[2], *im_range[2];
     double re_all[2], im_all[2];
-};
-
-/// The lowest vertices so far: per sample the height and index, per block the largest of these heights.
-struct lowest {
-    double *height, *vertex, *highest;
-    int blocks; ///< whole rows of blocks
 };
 
 static double *take_room(double **room, int count)
@@ -249,8 +241,9 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
     struct moves moves;
     int count = 0;
     if (!figure) return false;
-    struct lowest found = {take_room(&room, BLOCK * blocks), take_room(&room, BLOCK * blocks),
-                           take_room(&room, blocks), blocks};
+    // The lowest vertices so far: per sample the height and index, per block the largest of these heights.
+    double *lowest = take_room(&room, BLOCK * blocks), *vertex = take_room(&room, BLOCK * blocks);
+    double *highest = take_room(&room, blocks);
     for (int d = 0; d < character->drive_count; d++) {
         const int coordinate = figure_find(figure, character->drives[d].name);
         if (coordinate < 0) continue;
@@ -273,8 +266,8 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
         find_ranges(one->re, blocks, one->re_range, one->re_all);
         find_ranges(one->im, blocks, one->im_range, one->im_all);
     }
-    for (int i = 0; i < BLOCK * blocks; i++) found.height[i] = ceiling, found.vertex[i] = -1;
-    for (int b = 0; b < blocks; b++) found.highest[b] = ceiling;
+    for (int i = 0; i < BLOCK * blocks; i++) lowest[i] = ceiling, vertex[i] = -1;
+    for (int b = 0; b < blocks; b++) highest[b] = ceiling;
     for (int v = 0; v < figure->character.vertex_count; v++) {
         moves.at_rest = character->position[1] + (double)figure->character.position[v][1] - (double)figure->lo[1];
         double least = moves.at_rest; // a lower bound of the vertex's height
@@ -285,20 +278,18 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
             least -= b * driven[k].im_all[b > 0];
         }
         bool may[ROW];
-        for (int row = 0; least < ceiling && row < found.blocks; row += ROW) {
-            if (!may_be_low(driven, count, &moves, row, found.highest + row, may)) continue;
+        for (int row = 0; least < ceiling && row < blocks; row += ROW) {
+            if (!may_be_low(driven, count, &moves, row, highest + row, may)) continue;
             for (int b = row; b < row + ROW; b++) {
-                double *height = found.height + BLOCK * b;
-                if (!may[b - row] ||
-                    !look_at_block(driven, count, &moves, v, BLOCK * b, height, found.vertex + BLOCK * b))
+                double *height = lowest + BLOCK * b;
+                if (!may[b - row] || !look_at_block(driven, count, &moves, v, BLOCK * b, height, vertex + BLOCK * b))
                     continue;
-                found.highest[b] = height[0];
-                for (int i = 1; i < BLOCK; i++)
-                    found.highest[b] = height[i] > found.highest[b] ? height[i] : found.highest[b];
+                highest[b] = height[0];
+                for (int i = 1; i < BLOCK; i++) highest[b] = height[i] > highest[b] ? height[i] : highest[b];
             }
         }
     }
-    for (int i = 0; i < samples; i++) low[i] = (struct low_point){found.height[i], (int)found.vertex[i]};
+    for (int i = 0; i < samples; i++) low[i] = (struct low_point){lowest[i], (int)vertex[i]};
     return true;
 }
 

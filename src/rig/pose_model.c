@@ -122,34 +122,6 @@ struct followed {
         drift; ///< what a round adds, per second: a steady travel bends nothing, and must not jump back after each round
 };
 
-static bool find_followed(const struct models *models, const struct document *document,
-                          const struct joint_motion *motion, struct followed *followed)
-{
-    const int rig = document_find_model(document, motion->model, motion->by_file);
-    const struct imported *imported = models_imported(models, document, rig);
-    if (!imported) return false;
-    const struct model_rig *model = &document->rigs[rig]->model;
-    const int clip = gltf_find_clip(&imported->gltf, model->clip);
-    struct chain_axes axes = {
-        .side = {0, 1, 0}, .up = {-1, 0, 0}, .along = {0, 0, 1}}; // of a chain that points to the front
-    for (int r = document->rig_count - 1; motion->chain && r >= 0; r--) {
-        const struct rig *chain = document->rigs[r];
-        struct chain_bones bones;
-        if (chain->kind != RIG_CHAIN || !chain->name || strcmp(chain->name, motion->chain) != 0) continue;
-        if (chain_find(&imported->gltf, chain->chain.from, chain->chain.to, &bones, NULL))
-            axes = chain_axes_at_rest(imported, &chain->chain, &bones);
-    }
-    *followed = (struct followed){.imported = imported,
-                                  .pose = models_pose(models, document, rig, POSE_UNSEEN),
-                                  .node = gltf_find_node(&imported->gltf, motion->joint),
-                                  .clip = clip,
-                                  .of = motion->of,
-                                  .axes = axes,
-                                  .scale = model->scale};
-    if (clip >= 0) followed->play = clip_play(model, &imported->gltf.clips[clip]);
-    return followed->node >= 0;
-}
-
 static double followed_at(struct followed *followed, double time)
 {
     const double travelled = followed->drift * (time - followed->play.first);
@@ -199,10 +171,32 @@ static void sample_raw(struct smoothing *smoothing, const struct document *docum
 
 bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples)
 {
-    struct followed followed;
+    const struct models *models = context;
+    const int rig = document_find_model(document, motion->model, motion->by_file);
+    const struct imported *imported = models_imported(models, document, rig);
+    if (!imported) return false;
+    const struct model_rig *model = &document->rigs[rig]->model;
+    const int clip = gltf_find_clip(&imported->gltf, model->clip);
+    struct chain_axes axes = {
+        .side = {0, 1, 0}, .up = {-1, 0, 0}, .along = {0, 0, 1}}; // of a chain that points to the front
+    for (int r = document->rig_count - 1; motion->chain && r >= 0; r--) {
+        const struct rig *chain = document->rigs[r];
+        struct chain_bones bones;
+        if (chain->kind != RIG_CHAIN || !chain->name || strcmp(chain->name, motion->chain) != 0) continue;
+        if (chain_find(&imported->gltf, chain->chain.from, chain->chain.to, &bones, NULL))
+            axes = chain_axes_at_rest(imported, &chain->chain, &bones);
+    }
+    struct followed followed = {.imported = imported,
+                                .pose = models_pose(models, document, rig, POSE_UNSEEN),
+                                .node = gltf_find_node(&imported->gltf, motion->joint),
+                                .clip = clip,
+                                .of = motion->of,
+                                .axes = axes,
+                                .scale = model->scale};
+    if (clip >= 0) followed.play = clip_play(model, &imported->gltf.clips[clip]);
+    if (followed.node < 0) return false;
     const int substeps = document->substeps;
     struct smoothing smoothing = {.substeps = substeps};
-    if (!find_followed(context, document, motion, &followed)) return false;
     const struct clip_play *play = &followed.play;
     const int count = document_samples(document);
 

@@ -160,18 +160,6 @@ static void vector_cross(const double a[3], const double b[3], double across[3])
     for (int k = 0; k < 3; k++) across[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/// rotation ← rotation · exp(angle · axis)
-static void turn_about(const double axis[3], double angle, double rotation[4])
-{
-    const double c = maths_cos(angle / 2), s = maths_sin(angle / 2), x = s * axis[0], y = s * axis[1],
-                 z = s * axis[2];
-    const double before[4] = {rotation[0], rotation[1], rotation[2], rotation[3]};
-    rotation[0] = before[3] * x + before[0] * c + before[1] * z - before[2] * y;
-    rotation[1] = before[3] * y - before[0] * z + before[1] * c + before[2] * x;
-    rotation[2] = before[3] * z + before[0] * y - before[1] * x + before[2] * c;
-    rotation[3] = before[3] * c - before[0] * x - before[1] * y - before[2] * z;
-}
-
 /// Turns a joint's rotation (x y z w) by the values of the channels (eq. 27).
 static void turn_joint(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
                        double rotation[4])
@@ -179,8 +167,15 @@ static void turn_joint(const struct strand *strand, const wiggly_value *values, 
     double axis[3][3], angle[3];
     rest_axes(strand, joint, axis);
     find_angles(strand, values, look, joint, angle);
-    for (int a = 0; a < 3; a++) {
-        if (angle[a] != 0.0) turn_about(axis[a], angle[a], rotation);
+    for (int a = 0; a < 3; a++) { // rotation ← rotation · exp(angle · axis)
+        if (angle[a] == 0.0) continue;
+        const double c = maths_cos(angle[a] / 2), s = maths_sin(angle[a] / 2);
+        const double x = s * axis[a][0], y = s * axis[a][1], z = s * axis[a][2];
+        const double before[4] = {rotation[0], rotation[1], rotation[2], rotation[3]};
+        rotation[0] = before[3] * x + before[0] * c + before[1] * z - before[2] * y;
+        rotation[1] = before[3] * y - before[0] * z + before[1] * c + before[2] * x;
+        rotation[2] = before[3] * z + before[0] * y - before[1] * x + before[2] * c;
+        rotation[3] = before[3] * c - before[0] * x - before[1] * y - before[2] * z;
     }
 }
 
@@ -230,15 +225,6 @@ static void path_apply(const double m[9], const double scale[3], const double v[
         out[k] = m[k] * scale[0] * v[0] + m[3 + k] * scale[1] * v[1] + m[6 + k] * scale[2] * v[2];
 }
 
-static void rotation_matrix(const double q[4], double m[9])
-{
-    const double x = q[0], y = q[1], z = q[2], w = q[3];
-    const double turned[9] = {1 - 2 * (y * y + z * z), 2 * (x * y + w * z),     2 * (x * z - w * y),
-                              2 * (x * y - w * z),     1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
-                              2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};
-    memcpy(m, turned, sizeof turned);
-}
-
 bool path_find(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                struct path *path)
 {
@@ -279,7 +265,7 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
                 node->offset[k] = (double)(of->has_matrix ? of->matrix[12 + k] : place->translation[k]);
                 node->scale[k] = of->has_matrix ? 1 : (double)place->scale[k];
             }
-            rotation_matrix(node->rotation, node->turn);
+            quat_matrix(node->rotation, node->turn);
             for (int k = 0; k < 9 && of->has_matrix; k++) node->turn[k] = (double)of->matrix[4 * (k / 3) + k % 3];
         }
         const mat3s inward = into_bone(strand.imported, last);
@@ -295,7 +281,7 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
             struct path_node *node = &path->nodes[i];
             if (node->node != strand.bones.node[n]) continue;
             turn_joint(&strand, values, posing->look, n++, node->rotation);
-            rotation_matrix(node->rotation, node->turn);
+            quat_matrix(node->rotation, node->turn);
         }
     }
 

@@ -20,16 +20,6 @@ static cplx response(const struct swing_filter *filter, double t)
     return cplx_scale(1 / cplx_norm(apart), cplx_mul(rise, cplx_conj(apart)));
 }
 
-/// The response to a step of the base is φ̇, at most about ω_n φ. Two complex poles at −σ + j(ω ± β) ring up together:
-/// |φ| = e^{−σt} sin(βt)/β is largest at t = atan(β/σ)/β, and or, where they coincide, at 1/σ. A damped spring stays below 1/ω_n.
-static double step_peak(const struct swing_filter *filter)
-{
-    const double sigma = -filter->s[0][0], beta = 0.5 * fabs(filter->s[0][1] - filter->s[1][1]);
-    if (!filter->is_complex || filter->oscillates) return 1;
-    const double t = beta > 1e-6 * sigma ? maths_atan2(beta, sigma) / beta : 1 / sigma;
-    return fmax(1, filter->natural * sqrt(cplx_norm(response(filter, t))));
-}
-
 bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct swing_filter *filter)
 {
     wiggly_desc desc = wiggly_default_desc();
@@ -42,7 +32,13 @@ bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_
                                     .natural = at.natural,
                                     .is_complex = spline_mode(spline) == WIGGLY_COMPLEX};
     if (!(at.natural > 0)) return false;
-    filter->peak = step_peak(filter);
+
+    // The response to a step of the base is φ̇, at most about ω_n φ. Two complex poles at −σ + j(ω ± β) ring up together:
+    // |φ| = e^{−σt} sin(βt)/β is largest at t = atan(β/σ)/β, and or, where they coincide, at 1/σ. A damped spring stays below 1/ω_n.
+    const double sigma = -filter->s[0][0], beta = 0.5 * fabs(filter->s[0][1] - filter->s[1][1]);
+    const double t = beta > 1e-6 * sigma ? maths_atan2(beta, sigma) / beta : 1 / sigma;
+    const bool rings = filter->is_complex && !filter->oscillates;
+    filter->peak = rings ? fmax(1, filter->natural * sqrt(cplx_norm(response(filter, t)))) : 1;
     return true;
 }
 
