@@ -139,10 +139,6 @@ void posing_values(const struct posing *posing, int rig, double position, const 
 /// Its displacement by hand, metres.
 void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);
 
-/// The base of a tail, metres of the world, and the motion of the body's parts.
-struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
-                       const struct by_hand *by_hand, double base[3]);
-
 /// Like model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
 bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples);

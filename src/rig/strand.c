@@ -214,6 +214,53 @@ void strand_turned_axes(const struct strand *strand, const wiggly_value *values,
     }
 }
 
+// --- the base of a tail
+
+/// Limits of the body's parts, degrees and percent, so that no spline breaks the fox.
+static const struct {
+    double lowest, highest;
+} limb_limits[AXES] = {
+    [AXIS_LOOK] = {-70, 70},   [AXIS_NOD] = {-35, 35},     [AXIS_EARS] = {-30, 60},
+    [AXIS_BREATH] = {-15, 25}, [AXIS_STRETCH] = {-40, 40}, [AXIS_BLINK] = {0, 100},
+};
+
+/// Sum of an axis' channels for a part's n-th joint, within the limb_limits.
+static double limb_moved(const struct tail *tail, const wiggly_value *values, enum look look, enum axis axis, int n)
+{
+    double sum = 0;
+    for (int c = 0; c < tail->channel_count; c++) {
+        if (tail->channels[c].axis == axis) sum += channel_moves(&tail->channels[c], values[c], n, look);
+    }
+    return fmin(fmax(sum, limb_limits[axis].lowest), limb_limits[axis].highest);
+}
+
+/// The base of a tail, metres of the world, and the motion of the body's parts.
+static struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
+                              const struct by_hand *by_hand, double base[3])
+{
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
+    const enum look look = posing->look;
+    const double stretch = limb_moved(tail, values, look, AXIS_STRETCH, 1) / 100;
+    struct limbs limbs = {
+        .look = (float)radians(limb_moved(tail, values, look, AXIS_LOOK, 1)),
+        .nod = (float)radians(limb_moved(tail, values, look, AXIS_NOD, 1)),
+        .breath = (float)limb_moved(tail, values, look, AXIS_BREATH, 1) / 100,
+        .stretch = (float)stretch,
+        .blink = (float)limb_moved(tail, values, look, AXIS_BLINK, 1) / 100,
+    };
+    for (int n = 0; n < 2; n++) limbs.ears[n] = (float)radians(limb_moved(tail, values, look, AXIS_EARS, n + 1));
+
+    double by[3];
+    limbs_base(stretch, tail->length / (double)FOX_TAIL_LENGTH, base);
+    posing_base(posing, rig, by_hand, by);
+    for (int k = 0; k < 3; k++) {
+        const struct param *param = &tail->position[k];
+        const wiggly_value value = evaluation_at(posing->evaluation, param->track, position);
+        base[k] += by[k] + (param->track < 0 ? param->value : value.y + value.re);
+    }
+    return limbs;
+}
+
 // --- the way from the root
 
 static const double unit[3] = {1, 1, 1};
@@ -352,50 +399,6 @@ double channel_moves(const struct channel *channel, wiggly_value value, int n, e
 {
     const double lag = look == LOOK_STIFF ? 0.0 : n * radians(angles_at(&channel->lag, 0, 1));
     return angles_at(&channel->gain, 0, 1) * wiggly_lagged(value, lag);
-}
-
-/// Limits of the body's parts, degrees and percent, so that no spline breaks the fox.
-static const struct {
-    double lowest, highest;
-} limb_limits[AXES] = {
-    [AXIS_LOOK] = {-70, 70},   [AXIS_NOD] = {-35, 35},     [AXIS_EARS] = {-30, 60},
-    [AXIS_BREATH] = {-15, 25}, [AXIS_STRETCH] = {-40, 40}, [AXIS_BLINK] = {0, 100},
-};
-
-/// Sum of an axis' channels for a part's n-th joint, within the limb_limits.
-static double limb_moved(const struct tail *tail, const wiggly_value *values, enum look look, enum axis axis, int n)
-{
-    double sum = 0;
-    for (int c = 0; c < tail->channel_count; c++) {
-        if (tail->channels[c].axis == axis) sum += channel_moves(&tail->channels[c], values[c], n, look);
-    }
-    return fmin(fmax(sum, limb_limits[axis].lowest), limb_limits[axis].highest);
-}
-
-struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
-                       const struct by_hand *by_hand, double base[3])
-{
-    const struct tail *tail = &posing->document->rigs[rig]->tail;
-    const enum look look = posing->look;
-    const double stretch = limb_moved(tail, values, look, AXIS_STRETCH, 1) / 100;
-    struct limbs limbs = {
-        .look = (float)radians(limb_moved(tail, values, look, AXIS_LOOK, 1)),
-        .nod = (float)radians(limb_moved(tail, values, look, AXIS_NOD, 1)),
-        .breath = (float)limb_moved(tail, values, look, AXIS_BREATH, 1) / 100,
-        .stretch = (float)stretch,
-        .blink = (float)limb_moved(tail, values, look, AXIS_BLINK, 1) / 100,
-    };
-    for (int n = 0; n < 2; n++) limbs.ears[n] = (float)radians(limb_moved(tail, values, look, AXIS_EARS, n + 1));
-
-    double by[3];
-    limbs_base(stretch, tail->length / (double)FOX_TAIL_LENGTH, base);
-    posing_base(posing, rig, by_hand, by);
-    for (int k = 0; k < 3; k++) {
-        const struct param *param = &tail->position[k];
-        const wiggly_value value = evaluation_at(posing->evaluation, param->track, position);
-        base[k] += by[k] + (param->track < 0 ? param->value : value.y + value.re);
-    }
-    return limbs;
 }
 
 static void set_strand(const struct path *path, struct pose *strand)
