@@ -128,24 +128,29 @@ static double transform_error(const struct ringing *r, int frames)
 {
     size_t n = (size_t)frames;
     double *gram = malloc(2 * n * n * sizeof *gram), *h = gram + n * n, wrong = 0, right = 0;
+    double complex *signal = malloc(n * sizeof *signal);
     struct motion motion;
     double means[3 * RINGING_VERTICES];
-    assert_non_null(gram);
+    assert_true(gram && signal);
     make_motion(&motion, frames, RINGING_VERTICES, ringing, (void *)(uintptr_t)r);
     assert_done(slabs_gram(&lapack, &motion, NULL, gram, means, &error));
     struct predictor predictor = hilbert_predictor(gram, frames);
     hilbert_transform(&lapack, &predictor, frames, h);
     for (int j = 0; j < 3 * RINGING_VERTICES; j++) {
         double mean = 0;
-        for (int s = 0; s < frames; s++) mean += creal(ring(s, j, r)) / frames;
+        for (int s = 0; s < frames; s++) {
+            signal[s] = ring(s, j, r);
+            mean += creal(signal[s]) / frames;
+        }
         for (int t = 0; t < frames; t++) {
-            double sum = -cimag(ring(t, j, r));
-            for (int s = 0; s < frames; s++) sum += h[(size_t)t * n + (size_t)s] * (creal(ring(s, j, r)) - mean);
+            double sum = -cimag(signal[t]);
+            for (int s = 0; s < frames; s++) sum += h[(size_t)t * n + (size_t)s] * (creal(signal[s]) - mean);
             wrong += sum * sum;
-            right += pow(cimag(ring(t, j, r)), 2);
+            right += pow(cimag(signal[t]), 2);
         }
     }
     motion_close(&motion);
+    free(signal);
     free(gram);
     return sqrt(wrong / right);
 }
