@@ -82,7 +82,7 @@ static double project(const struct soft *soft, int mode, const double direction[
 }
 
 /// Each mode of a body whose base moves a little is an oscillator that −Γ a(t) pushes: q'' + 2ζω q' + ω² q = −Γ a.
-BOX_TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator, 0.3f, 1, 300)
+BOX_TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator, 0.3f, 1, 200)
 {
     const double side[3] = {1, 0, 0}, h = 1e-3;
     const struct soft *soft = &s->soft;
@@ -275,7 +275,7 @@ static int count_pinned(const char *where)
 }
 
 /// Where nobody says what is held, the lowest twentieth of the height is, up to a layer of nodes that lies there.
-BOX_TEST(the_lowest_twentieth_is_held, 0.5f, 1, 2000)
+BOX_TEST(the_lowest_twentieth_is_held, 0.5f, 1, 800)
 {
     const struct body *body = &s->soft.body;
     double highest = -1, lowest_free = INFINITY;
