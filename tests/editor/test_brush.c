@@ -195,7 +195,8 @@ STUDIO_TEST(modes_and_modifiers_do_what_they_say)
     assert_string_equal(history_undo_label(s->session.history), "Advance phase");
     assert_true(fabs(mean_lead(s)) < -0.1 * delayed); // all but what the surface moved meanwhile
     panel_click(&s->session, "swing.less");
-    for (int stroke = 0; stroke < 6; stroke++) hold(s, left_finger, 0, 300);
+    brush_of(s->session.editor)->strength = 1;
+    for (int stroke = 0; stroke < 6; stroke++) hold(s, left_finger, 0, 90);
     panel_click(&s->session, "erase.all");
     assert_string_equal(history_undo_label(s->session.history), "Less amplitude");
     float least = 0;
@@ -205,7 +206,7 @@ STUDIO_TEST(modes_and_modifiers_do_what_they_say)
         least = fminf(least, swell);
     }
     assert_near((double)expf(least), 0.01, 1e-4);
-    hold(s, left_finger, 0, 600);
+    hold(s, left_finger, 0, 100);
     panel_click(&s->session, "paint.clean");
     assert_true(paint_is_plain(rig_of(s)->painted));
     assert_string_equal(history_undo_label(s->session.history), "Remove paint");
@@ -245,15 +246,16 @@ STUDIO_TEST(a_dab_fades_towards_its_rim)
 STUDIO_TEST(a_long_stroke_saturates)
 {
     session_key(&s->session, 'B', MOD_SHIFT);
+    brush_of(s->session.editor)->strength = 1;
     for (int stroke = 1; stroke <= 2; stroke++) {
-        hold(s, left_finger, 0, 600);
+        hold(s, left_finger, 0, 120);
         float most = 0;
         for (int i = 0; i < s->plain->character.vertex_count; i++) most = fmaxf(most, value_of(s, 0, i)[1]);
         if (stroke == 1) assert_near((double)most, 1.5707963, 0.02);
         if (stroke == 2) assert_true(most > 2 && most < 3.1416f); // the surface has moved under the pointer
     }
     panel_click(&s->session, "swing.more");
-    hold(s, left_finger, MOD_CTRL, 600);
+    hold(s, left_finger, MOD_CTRL, 120);
     float least = 0;
     for (int i = 0; i < s->plain->character.vertex_count; i++) least = fminf(least, value_of(s, 0, i)[0]);
     assert_near((double)expf(least), 0.25, 0.02);
