@@ -9,15 +9,26 @@
 enum { WIDTH = 480, HEIGHT = 360 };
 static unsigned char partial[WIDTH * HEIGHT * 4], whole[WIDTH * HEIGHT * 4];
 
-static bool open_picture(struct app *app)
+static struct platform *platform; ///< one for all scenes, as the app has; NULL: there is none here
+static struct draw *renderer;
+
+static int open_picture(void **state)
 {
-    struct error error;
-    free(app->platform);
-    app->platform = platform_offscreen(WIDTH, HEIGHT, 1, &error);
-    app->draw = app->platform ? draw_create(1, &error) : NULL;
-    if (!app->draw) print_message("skip - %s\n", error.text);
-    app_resize(app, WIDTH, HEIGHT, 1);
-    return app->draw != NULL;
+    struct error error = {0};
+    (void)state;
+    font_init();
+    platform = platform_offscreen(WIDTH, HEIGHT, 1, &error);
+    renderer = platform ? draw_create(1, &error) : NULL;
+    if (!renderer) print_message("skip - %s\n", error.text);
+    return 0;
+}
+
+static int close_picture(void **state)
+{
+    (void)state;
+    draw_destroy(renderer);
+    platform_destroy(platform);
+    return 0;
 }
 
 static void draw_whole(struct app *app)
@@ -35,14 +46,14 @@ static void draw_whole(struct app *app)
 /// Plays a scene, from some time on with onion skins.
 static void compare_frames(const char *scene)
 {
+    if (!renderer) skip();
     struct blind blind;
     blind_open(&blind, scene);
     struct app *app = &blind.app;
-    if (!open_picture(app)) {
-        app->platform = app->platform ? app->platform : calloc(1, sizeof *app->platform);
-        blind_close(&blind);
-        skip();
-    }
+    struct platform *const without = app->platform;
+    app->platform = platform;
+    app->draw = renderer;
+    app_resize(app, WIDTH, HEIGHT, 1);
     const int stride = quick_or_all(4, 9);
     for (int frame = 0; frame < quick_or_all(5, 45); frame++) {
         if (frame == quick_or_all(2, 5))
@@ -53,6 +64,8 @@ static void compare_frames(const char *scene)
         draw_whole(app);
         if (memcmp(partial, whole, sizeof whole) != 0) fail_msg("%s: frame %d differs", scene, frame);
     }
+    app->platform = without;
+    app->draw = NULL;
     blind_close(&blind);
 }
 
@@ -85,3 +98,5 @@ TEST(tails_of_few_joints)
         compare_frames(temporary_file("extent.json", scene, (size_t)length));
     }
 }
+
+TESTS_BETWEEN(open_picture, close_picture)
