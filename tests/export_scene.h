@@ -52,6 +52,22 @@ static inline const char *export_opened(struct opened *scene, const char *file, 
     return path;
 }
 
+/// The scene of a file that stays as it is. Opened once and kept: nobody may change it.
+static inline struct opened *kept_scene(const char *path)
+{
+    static struct {
+        char path[128];
+        struct opened scene;
+    } kept[8];
+    size_t k = 0;
+    while (kept[k].path[0] && strcmp(kept[k].path, path) != 0) assert_true(++k < sizeof kept / sizeof *kept);
+    if (!kept[k].path[0]) {
+        kept[k].scene = open_scene(path);
+        snprintf(kept[k].path, sizeof kept[k].path, "%s", path);
+    }
+    return &kept[k].scene;
+}
+
 static inline const char *export_file(const char *scene_path, const char *file, struct export_options options)
 {
     struct opened scene = open_scene(scene_path);
@@ -65,7 +81,7 @@ static inline const char *export_scene(const char *name, const char *file, struc
 {
     char scene_path[128];
     snprintf(scene_path, sizeof scene_path, "assets/scenes/%s.json", name);
-    return export_file(scene_path, file, options);
+    return export_opened(kept_scene(scene_path), file, options);
 }
 
 /// All numbers of a motion, as floats.

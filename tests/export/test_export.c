@@ -172,14 +172,13 @@ TEST_WITH(folder_make, folder_remove, point_caches_stand_in_their_node)
 /// Where no key falls on the last frame, the report says where the last key is; else it says nothing of it.
 TEST_WITH(folder_make, folder_remove, a_rate_that_misses_the_end_is_said)
 {
-    struct opened scene = open_scene("assets/scenes/tail.json"); // 24 frames a second
+    struct opened *scene = kept_scene("assets/scenes/tail.json"); // 24 frames a second
     for (int misses = 0; misses < 2; misses++) {
         const struct export_options options = {.rate = misses ? 18 : 12, .has_frames = true, .last = 22};
         struct export_report report = {0};
-        assert_done(export_write(posing_of(&scene), folder_path("t.csv"), &options, &report, &error));
+        assert_done(export_write(posing_of(scene), folder_path("t.csv"), &options, &report, &error));
         assert_int_equal(strstr(report.note, "the last key is on frame") != NULL, misses);
     }
-    close_scene(&scene);
 }
 
 /// A joint's path in a .usda begins with those that it hangs on.
@@ -196,16 +195,16 @@ TEST_WITH(folder_make, folder_remove, usd_joints_hang_on_each_other)
 TEST_WITH(folder_make, folder_remove, a_table_has_splines_and_channels)
 {
     char line[8192], expected[128];
-    struct opened scene = open_scene("assets/scenes/tail.json");
-    export_opened(&scene, "t.csv", (struct export_options){0});
+    struct opened *scene = kept_scene("assets/scenes/tail.json");
+    export_opened(scene, "t.csv", (struct export_options){0});
     FILE *file = fopen(folder_path("t.csv"), "r");
     assert_non_null(file);
     assert_non_null(fgets(line, sizeof line, file));
     assert_int_equal(strncmp(line, "frame,sway,up,breath,blink,tail.side.sway.0,tail.side.sway.1,", 61), 0);
     assert_non_null(strstr(line, ",tail.up.up.23,tail.look.sway,"));
     for (int k = 0; k <= 30; k++) assert_non_null(fgets(line, sizeof line, file));
-    const struct tail *tail = document_tail(scene.document, 0);
-    const wiggly_value sway = evaluation_at(&scene.evaluation, 0, 30), up = evaluation_at(&scene.evaluation, 1, 30);
+    const struct tail *tail = document_tail(scene->document, 0);
+    const wiggly_value sway = evaluation_at(&scene->evaluation, 0, 30), up = evaluation_at(&scene->evaluation, 1, 30);
     const double side = tail->channels[0].gain.value[0] * (sway.y + sway.re);
     snprintf(expected, sizeof expected, "30,%.9g", sway.y + sway.re);
     assert_int_equal(strncmp(line, expected, 9), 0);
@@ -216,7 +215,6 @@ TEST_WITH(folder_make, folder_remove, a_table_has_splines_and_channels)
     assert_near(number[2], up.y + up.re, 1e-12);
     assert_near(number[5], side, 1e-9);
     assert_int_equal(fclose(file), 0);
-    close_scene(&scene);
 }
 
 static bool stop_at_ten(void *user, long done, long total)
@@ -229,34 +227,31 @@ static bool stop_at_ten(void *user, long done, long total)
 TEST_WITH(folder_make, folder_remove, stopping_leaves_nothing_behind)
 {
     static const char *const names[] = {"a.glb", "a.gltf", "a.usda", "a.bvh", "a.csv", "a.pc2", "a.mdd", "a.npy"};
-    struct opened scene = open_scene("assets/scenes/tail.json");
+    struct opened *scene = kept_scene("assets/scenes/tail.json");
     long total = 0;
     const struct export_options options = {.proceed = stop_at_ten, .user = &total};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         struct export_report report;
         struct error error;
-        assert_false(export_write(posing_of(&scene), folder_path(names[i]), &options, &report, &error));
+        assert_false(export_write(posing_of(scene), folder_path(names[i]), &options, &report, &error));
         assert_int_equal(total, 121);
         assert_int_equal(files_in_folder(), 0);
     }
-    close_scene(&scene);
-    scene = open_scene("assets/scenes/dog.json"); // its .usda has a folder of textures
+    scene = kept_scene("assets/scenes/dog.json"); // its .usda has a folder of textures
     struct export_report report;
     struct error error;
-    assert_false(export_write(posing_of(&scene), folder_path("a.usda"), &options, &report, &error));
+    assert_false(export_write(posing_of(scene), folder_path("a.usda"), &options, &report, &error));
     assert_int_equal(files_in_folder(), 0);
-    close_scene(&scene);
 }
 
 /// Expects an export to be refused with that sentence.
 static void assert_fails(const char *scene_path, const char *file, struct export_options options,
                          const char *sentence)
 {
-    struct opened scene = open_scene(scene_path);
     struct export_report report;
-    assert_refusal(export_write(posing_of(&scene), folder_path(file), &options, &report, &error), sentence);
+    assert_refusal(export_write(posing_of(kept_scene(scene_path)), folder_path(file), &options, &report, &error),
+                   sentence);
     assert_int_equal(files_in_folder(), 0);
-    close_scene(&scene);
 }
 
 TEST_WITH(folder_make, folder_remove, refusals_say_what_to_do)

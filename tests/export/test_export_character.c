@@ -445,13 +445,13 @@ TEST_WITH(folder_make, folder_remove, usd_tells_joints_of_one_name_apart)
 /// Where the textures cannot be written, nothing is: neither the file nor a part of them.
 TEST_WITH(folder_make, folder_remove, without_its_textures_nothing_is_written)
 {
-    struct opened scene = open_scene("assets/scenes/dog.json");
     struct export_report report;
     const struct export_options usual = {.substeps = 1};
     assert_done(file_write_atomic(folder_path("dog_textures"), "a file", 6, &error));
-    assert_refusal(export_write(posing_of(&scene), folder_path("dog.usda"), &usual, &report, &error), "dog_textures");
+    assert_refusal(export_write(posing_of(kept_scene("assets/scenes/dog.json")), folder_path("dog.usda"), &usual,
+                                &report, &error),
+                   "dog_textures");
     assert_int_equal(files_in_folder(), 1);
-    close_scene(&scene);
 }
 
 /// A picture that cannot take its place in the end: that is said, and neither it nor its folder stays.
