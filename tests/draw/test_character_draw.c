@@ -46,7 +46,7 @@ static picture one, other;
 TEST(coordinates_move_it)
 {
     if (!platform) skip();
-    struct character character = puppet_character(0.03f, 3);
+    struct character character = puppet_character(0.05f, 3);
     for (int i = 0; i < character.vertex_count; i++) {
         character.coordinates[0].re[i][0] = 9; // not driven
         character.coordinates[1].re[i][0] = 0.12f;
@@ -71,7 +71,7 @@ TEST(a_figure_stands_in_two_places)
 {
     if (!platform) skip();
     static picture pair;
-    struct character character = puppet_character(0.03f, 0);
+    struct character character = puppet_character(0.05f, 0);
     struct figure figure = puppet_figure(&character);
     struct stage_character both[2] = {shown(&figure), shown(&figure)};
     both[0].position[0] = -0.5f;
@@ -88,7 +88,7 @@ TEST(a_figure_stands_in_two_places)
 TEST(normals_follow_on_the_stage)
 {
     if (!platform) skip();
-    struct character soft = puppet_character(0.03f, 1), firm = puppet_character(0.03f, 0);
+    struct character soft = puppet_character(0.05f, 1), firm = puppet_character(0.05f, 0);
     for (int i = 0; i < soft.vertex_count; i++) {
         const float *p = soft.position[i], *n = soft.normal[i];
         soft.coordinates[0].im[i][0] = -0.8f * p[0] - 0.5f * p[1];
@@ -113,7 +113,7 @@ TEST(normals_follow_on_the_stage)
 TEST(paint_shows_on_the_stage)
 {
     if (!platform) skip();
-    struct character plain = puppet_character(0.03f, 2), made = puppet_character(0.03f, 2);
+    struct character plain = puppet_character(0.05f, 2), made = puppet_character(0.05f, 2);
     float(*paint)[2] = calloc(2 * (size_t)plain.vertex_count, sizeof *paint);
     assert_non_null(paint);
     for (int i = 0; i < plain.vertex_count; i++) {
@@ -147,7 +147,7 @@ TEST(paint_shows_on_the_stage)
 /// A puppet whose phase along z is `phase` at its feet and grows by `more` a metre upwards.
 static struct character phased(float phase, float more)
 {
-    struct character character = puppet_character(0.03f, 2);
+    struct character character = puppet_character(0.05f, 2);
     for (int i = 0; i < character.vertex_count; i++) {
         const float y = character.position[i][1], angle = phase + more * y;
         character.coordinates[1].re[i][2] = y * cosf(angle);
@@ -159,7 +159,7 @@ static struct character phased(float phase, float more)
 /// Draws a figure twice: by the shader's phase map into `one`, painted with the legend's colours into `other`.
 static void draw_mapped(const struct figure *figure)
 {
-    struct character painted = puppet_character(0.03f, 0);
+    struct character painted = puppet_character(0.05f, 0);
     const struct coordinate *c = &figure->character.coordinates[1];
     const float largest = figure->largest[1][2];
     for (int i = 0; i < painted.vertex_count; i++)

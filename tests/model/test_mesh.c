@@ -47,12 +47,31 @@ static int open_edges(const struct mesh *mesh)
     return open;
 }
 
-#define MESH_TEST(name, makes) TEST_OF(struct mesh, mesh, makes, mesh_free(mesh), name)
+static struct mesh body, tail, levels[FOX_LEVELS]; ///< made once
 
-MESH_TEST(the_body_is_closed, mesh_fox_body(0.030f, 0.0028f, 3, mesh)) { assert_int_equal(open_edges(mesh), 0); }
-
-MESH_TEST(the_tail_is_open_only_inside_the_body, mesh_fox_tail(100, 40, mesh))
+static int make_meshes(void **state)
 {
+    (void)state;
+    mesh_fox_body(0.030f, 0.0028f, 3, &body);
+    mesh_fox_tail(100, 40, &tail);
+    for (int level = 0; level < FOX_LEVELS; level++) mesh_fox(level, &levels[level]);
+    return 0;
+}
+
+static int free_meshes(void **state)
+{
+    (void)state;
+    mesh_free(&body);
+    mesh_free(&tail);
+    for (int level = 0; level < FOX_LEVELS; level++) mesh_free(&levels[level]);
+    return 0;
+}
+
+TEST(the_body_is_closed) { assert_int_equal(open_edges(&body), 0); }
+
+TEST(the_tail_is_open_only_inside_the_body)
+{
+    const struct mesh *mesh = &tail;
     assert_int_equal(open_edges(mesh), 40);
     float start = INFINITY, end = -INFINITY;
     for (int v = 0; v < mesh->vertex_count; v++) {
@@ -67,30 +86,29 @@ MESH_TEST(the_tail_is_open_only_inside_the_body, mesh_fox_tail(100, 40, mesh))
 TEST(normals_are_unit_and_agree_with_the_triangles)
 {
     for (int level = 0; level < FOX_LEVELS; level++) {
-        struct mesh mesh = {0};
-        mesh_fox(level, &mesh);
+        const struct mesh *mesh = &levels[level];
         int wrong = 0;
-        for (int v = 0; v < mesh.vertex_count; v++) {
-            assert_near(dot(mesh.vertices[v].normal, mesh.vertices[v].normal), 1.0, 1e-3);
-            assert_true(mesh.vertices[v].bend >= 0.0f && mesh.vertices[v].bend <= 1.0f);
+        for (int v = 0; v < mesh->vertex_count; v++) {
+            assert_near(dot(mesh->vertices[v].normal, mesh->vertices[v].normal), 1.0, 1e-3);
+            assert_true(mesh->vertices[v].bend >= 0.0f && mesh->vertices[v].bend <= 1.0f);
         }
-        for (int t = 0; t < mesh.index_count / 3; t++) {
+        for (int t = 0; t < mesh->index_count / 3; t++) {
             float face[3], smooth[3] = {0};
-            face_normal(&mesh, t, face);
+            face_normal(mesh, t, face);
             for (int c = 0; c < 3; c++) {
-                const float *normal = mesh.vertices[mesh.indices[3 * t + c]].normal;
+                const float *normal = mesh->vertices[mesh->indices[3 * t + c]].normal;
                 for (int k = 0; k < 3; k++) smooth[k] += normal[k];
             }
             wrong += dot(face, smooth) < 0.0f;
         }
-        assert_true(wrong <= mesh.index_count / 3 / 200);
-        mesh_free(&mesh);
+        assert_true(wrong <= mesh->index_count / 3 / 200);
     }
 }
 
 /// What an eye sees as round is nowhere cut off by an edge: at 250 pixels a metre not by a pixel.
-MESH_TEST(silhouettes_have_no_corners, mesh_fox(0, mesh))
+TEST(silhouettes_have_no_corners)
 {
+    const struct mesh *mesh = &levels[0];
     for (int i = 0; i < mesh->index_count; i++) {
         const struct vertex *a = &mesh->vertices[mesh->indices[i]];
         const struct vertex *b = &mesh->vertices[mesh->indices[i % 3 == 2 ? i - 2 : i + 1]];
@@ -105,27 +123,23 @@ MESH_TEST(silhouettes_have_no_corners, mesh_fox(0, mesh))
 
 TEST(the_stage_stays_within_its_triangles)
 {
-    for (int animals = 1; animals <= 8; animals++) {
-        struct mesh mesh = {0};
-        mesh_fox(fox_level(animals), &mesh);
-        assert_true(animals * mesh.index_count / 3 <= 20000);
-        mesh_free(&mesh);
-    }
+    for (int animals = 1; animals <= 8; animals++)
+        assert_true(animals * levels[fox_level(animals)].index_count / 3 <= 20000);
 }
 
-MESH_TEST(the_body_stands_on_the_ground, mesh_fox_body(0.030f, 0.0028f, 3, mesh))
+TEST(the_body_stands_on_the_ground)
 {
     float low = INFINITY;
-    for (int v = 0; v < mesh->vertex_count; v++) low = fminf(low, mesh->vertices[v].position[1]);
+    for (int v = 0; v < body.vertex_count; v++) low = fminf(low, body.vertices[v].position[1]);
     assert_near(low, -FOX_BASE_HEIGHT, 0.02);
 }
 
 /// Where the tail leaves the body both skins coincide, in place, colour and bending, so that no line shows.
-MESH_TEST(tail_and_body_meet_smoothly, mesh_fox_body(0.030f, 0.0028f, 3, mesh))
+TEST(tail_and_body_meet_smoothly)
 {
     int seen = 0;
-    for (int v = 0; v < mesh->vertex_count; v++) {
-        const struct vertex *vertex = &mesh->vertices[v];
+    for (int v = 0; v < body.vertex_count; v++) {
+        const struct vertex *vertex = &body.vertices[v];
         const float z = vertex->position[2];
         if (z < 0.13f || z > 0.2f) continue;
         const float radius = hypotf(vertex->position[0], vertex->position[1]);
@@ -138,8 +152,9 @@ MESH_TEST(tail_and_body_meet_smoothly, mesh_fox_body(0.030f, 0.0028f, 3, mesh))
 }
 
 /// From the root it swells to about twice as much, and its pointed tip is white.
-MESH_TEST(the_brush_swells_and_ends_white, mesh_fox_tail(100, 40, mesh))
+TEST(the_brush_swells_and_ends_white)
 {
+    const struct mesh *mesh = &tail;
     float thickest = 0.0f, at = 0.0f;
     int edges = 0;
     for (int ring = 0; ring < 100; ring++) {
@@ -156,8 +171,9 @@ MESH_TEST(the_brush_swells_and_ends_white, mesh_fox_tail(100, 40, mesh))
 }
 
 /// The stage draws eyes and nose in the head's own space, from the front.
-MESH_TEST(the_face_looks_where_the_stage_draws_it, mesh_fox(0, mesh))
+TEST(the_face_looks_where_the_stage_draws_it)
 {
+    const struct mesh *mesh = &levels[0];
     float m[16];
     int nose = 0, eyes[2] = {0, 0};
     fox_head_from_bind(m);
@@ -209,3 +225,5 @@ TEST(the_file_is_what_its_tool_makes)
     gltf_free(&made);
     gltf_free(&committed);
 }
+
+TESTS_BETWEEN(make_meshes, free_meshes)
