@@ -1,4 +1,4 @@
-/// Builds .gltf files in tests: add accessors one by one; the test supplies the rest of the JSON.
+/// Builds .gltf files in tests: add accessors one by one; the test supplies the rest of the JSON, with ' for ".
 #ifndef TESTS_GLTF_BUILDER_H
 #define TESTS_GLTF_BUILDER_H
 
@@ -50,6 +50,30 @@ static inline int add_data(struct builder *b, int component, const char *type, i
     return add_accessor(b, component, type, count, view);
 }
 
+/// An accessor of numbers, `each` an element: ADD(b, FLOAT, float, 3, 0, 0, 0, 1, 0, 0).
+#define ADD(b, component, numbers, each, ...)                                                                        \
+    add_numbers(b, component, "", each, sizeof(numbers), (const numbers[]){__VA_ARGS__},                             \
+                sizeof((const numbers[]){__VA_ARGS__}))
+#define ADD_NORMALISED(b, component, numbers, each, ...)                                                             \
+    add_numbers(b, component, ",'normalized':true", each, sizeof(numbers), (const numbers[]){__VA_ARGS__},           \
+                sizeof((const numbers[]){__VA_ARGS__}))
+
+static inline int add_numbers(struct builder *b, int component, const char *more, int each, size_t bytes,
+                              const void *data, size_t size)
+{
+    static const char *const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4", [16] = "MAT4"};
+    char view[64];
+    snprintf(view, sizeof view, ",'bufferView':%d%s", add_view(b, data, size, 0), more);
+    return add_accessor(b, component, types[each], (int)(size / bytes) / each, view);
+}
+
+/// Puts " for each '.
+static inline char *quote(char *text)
+{
+    for (char *at = text; (at = strchr(at, '\'')); at++) *at = '"';
+    return text;
+}
+
 static inline char *append_base64(char *out, const unsigned char *bytes, size_t size)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -72,7 +96,7 @@ static inline const char *builder_json(struct builder *b, const char *members)
                                   b->size);
     end = append_base64(end, b->bytes, b->size);
     sprintf(end, "\"}],\"bufferViews\":[%s],\"accessors\":[%s],%s}", b->views, b->accessors, members);
-    return b->json;
+    return quote(b->json);
 }
 
 static inline void read_text(const char *text, struct gltf *gltf)
