@@ -50,10 +50,10 @@ static void draw(const char *sampler, float from, float to, const unsigned char 
     add_data(&b, FLOAT, "VEC2", 4, uv, sizeof uv);
     add_data(&b, USHORT, "SCALAR", 6, indices, sizeof indices);
     snprintf(members, sizeof members,
-             "\"images\":[{\"uri\":\"%s\"}],\"samplers\":[{}, %s],\"textures\":[{\"source\":0,\"sampler\":1}],"
-             "\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
-             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,"
-             "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]",
+             "'images':[{'uri':'%s'}],'samplers':[{}, "
+             "%s],'textures':[{'source':0,'sampler':1}],'materials':[{'doubleSided':true,'pbrMetallicRoughness':{"
+             "'baseColorTexture':{'index':0}}}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1},"
+             "'indices':2,'material':0}]}],'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]",
              path, sampler);
     draw_built(&b, members, drawn);
 }
@@ -66,7 +66,7 @@ static int differing(const picture a, const picture b)
     return count;
 }
 
-#define NEAREST "\"minFilter\": 9728, \"magFilter\": 9728"
+#define NEAREST "'minFilter': 9728, 'magFilter': 9728"
 
 static const unsigned char red_blue[2][2][4] = {{{230, 40, 30, 255}, {30, 60, 220, 255}},
                                                 {{240, 220, 60, 255}, {60, 200, 90, 255}}};
@@ -98,10 +98,10 @@ static void draw_tent(bool has_normals, picture drawn)
         add_data(&b, USHORT, "SCALAR", 6, indices, sizeof indices);
     }
     draw_built(&b,
-               has_normals ? "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1}}]}],"
-                             "\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]"
-                           : "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],"
-                             "\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]",
+               has_normals ? "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}],'nodes':[{'mesh':"
+                             "0}],'scenes':[{'nodes':[0]}]"
+                           : "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}],'nodes':[{'mesh':"
+                             "0}],'scenes':[{'nodes':[0]}]",
                drawn);
 }
 
@@ -132,8 +132,7 @@ TEST(textures_go_on_as_the_file_says)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char sampler[128];
         unsigned char made[4][4][4];
-        snprintf(sampler, sizeof sampler, "{\"wrapS\": %s, \"wrapT\": %s, " NEAREST "}", cases[i].across,
-                 cases[i].down);
+        snprintf(sampler, sizeof sampler, "{'wrapS': %s, 'wrapT': %s, " NEAREST "}", cases[i].across, cases[i].down);
         spread(cases[i].column, cases[i].row, made);
         draw(sampler, -0.5f, 1.5f, red_blue[0][0], 2, one);
         draw("{" NEAREST "}", 0, 1, made[0][0], 4, other);
@@ -142,8 +141,8 @@ TEST(textures_go_on_as_the_file_says)
         assert_int_equal(differing(one, other) > 1000, i > 0);
     }
     // Further out mirroring and clamping are not the same.
-    draw("{\"wrapS\": 33648, " NEAREST "}", 0, 3, red_blue[0][0], 2, one);
-    draw("{\"wrapS\": 33071, " NEAREST "}", 0, 3, red_blue[0][0], 2, other);
+    draw("{'wrapS': 33648, " NEAREST "}", 0, 3, red_blue[0][0], 2, one);
+    draw("{'wrapS': 33071, " NEAREST "}", 0, 3, red_blue[0][0], 2, other);
     assert_true(differing(one, other) > 1000);
 }
 
@@ -158,11 +157,11 @@ static int changes(const picture drawn)
 TEST(a_near_texture_has_edges_or_none)
 {
     if (!platform) skip();
-    draw("{\"magFilter\": 9728}", 0, 1, red_blue[0][0], 2, one);
-    draw("{\"magFilter\": 9729}", 0, 1, red_blue[0][0], 2, other);
+    draw("{'magFilter': 9728}", 0, 1, red_blue[0][0], 2, one);
+    draw("{'magFilter': 9729}", 0, 1, red_blue[0][0], 2, other);
     assert_true(differing(one, other) > 1000);
     assert_true(changes(one) < changes(other));
-    draw("{\"magFilter\": 7, \"wrapS\": \"none\"}", 0, 1, red_blue[0][0], 2, one); // what glTF does not know
+    draw("{'magFilter': 7, 'wrapS': 'none'}", 0, 1, red_blue[0][0], 2, one); // what glTF does not know
     assert_int_equal(differing(one, other), 0);
 }
 

@@ -3,9 +3,8 @@
 #include "gltf_builder.h"
 
 /// A square of one metre, seen from +z, for two nodes: one of them 5 m behind, its back to the eye.
-static const char nodes[] =
-    "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2}]}],"
-    "\"nodes\":[{\"mesh\":0},{},{\"mesh\":0,\"translation\":[0,0,-5],\"rotation\":[0,1,0,0]}]";
+static const char nodes[] = "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1},'indices':2}]}],'nodes'"
+                            ":[{'mesh':0},{},{'mesh':0,'translation':[0,0,-5],'rotation':[0,1,0,0]}]";
 
 static const float square[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 

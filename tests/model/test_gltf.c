@@ -170,11 +170,11 @@ GLTF_TEST(materials_and_images)
         "'offset':[0.5,0.25],'rotation':1.5707963267948966,'scale':[2,4],'texCoord':1}}}},'alphaMode':'MASK'},"
         "{" TEXTURE("2") ",'alphaMode':'MASK','alphaCutoff':0.25},{" TEXTURE("3") "},{" TEXTURE(
             "4") ",'normalTexture':{'index':0}},{" TEXTURE("3") "},{" TEXTURE("5") "}],"
-                                                                                   "'meshes':[{'primitives':[{'"
-                                                                                   "attributes':{'POSITION':0,'"
-                                                                                   "TEXCOORD_1':1},'material':1},"
-                                                                                   "{'attributes':{'POSITION':0,'"
-                                                                                   "TEXCOORD_1':1}}]}]," ONE_NODE);
+                                                                                   "'meshes':[{'primitives':[{"
+                                                                                   "'attributes':{'POSITION':0,"
+                                                                                   "'TEXCOORD_1':1},'material':1},"
+                                                                                   "{'attributes':{'POSITION':0,"
+                                                                                   "'TEXCOORD_1':1}}]}]," ONE_NODE);
     // the second material's: scale, then a quarter turn, then the offset: (1, 0) → (2, 0) → (0, −2) → (0.5, −1.75)
     assert_facts(&b->gltf, "uv ~0.5 ~0.25 ~0.5 ~-1.75 ~4.5 ~0.25 part 1 uv"); // plain white has no second set
     assert_int_equal(b->gltf.image_count, 3);

@@ -15,92 +15,88 @@ static void assert_refused(const char *text, const char *says)
 {
     struct gltf gltf;
     struct error error = {0};
-    const char *path = temporary_file("bad.gltf", text, strlen(text));
+    static char copy[1 << 16];
+    const char *path = temporary_file("bad.gltf", quote(strcpy(copy, text)), strlen(text));
     if (gltf_read(path, &gltf, &error)) fail_msg("opened, though '%s'", says);
     if (strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, says))
         fail_msg("'%s' does not name the file and say '%s'", error.text, says);
     assert_null(gltf.nodes);
 }
 
-#define POSITION "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":"
-#define NODES ",\"nodes\":[{\"mesh\":0}]"
+#define POSITION "'meshes':[{'primitives':[{'attributes':{'POSITION':"
+#define NODES ",'nodes':[{'mesh':0}]"
 #define CLIP(sampler, path)                                                                                          \
-    "\"nodes\":[{}],\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"" path           \
-    "\"}}],\"samplers\":[" sampler "]}]"
+    "'nodes':[{}],'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':'" path                          \
+    "'}}],'samplers':[" sampler "]}]"
 
 /// Members, and what is said of them. Accessor 0 is a triangle, 1 three quaternions, 2 descending times, 3 a lonely 7 as a byte, 4 has a
 /// NaN, 5 joints, 6 weights.
 static const struct {
     const char *members, *says;
 } bad[] = {
-    {"\"scenes\":[]", "nodes: expected something to show, got no nodes"},
-    {"\"nodes\":7", "nodes: expected an array, got something else"},
-    {"\"extensionsRequired\":[\"x\",\"KHR_meshopt_compression\"]",
+    {"'scenes':[]", "nodes: expected something to show, got no nodes"},
+    {"'nodes':7", "nodes: expected an array, got something else"},
+    {"'extensionsRequired':['x','KHR_meshopt_compression']",
      "extensionsRequired[1]: expected meshes that are not compressed, got KHR_meshopt"},
-    {"\"nodes\":[{\"mesh\":0}]", "nodes[0].mesh: expected none, because the file has none"},
-    {POSITION "0}}]}],\"nodes\":[{\"mesh\":1}]", "nodes[0].mesh: expected a number from 0 to 0, got 1"},
-    {POSITION "0}}]}],\"nodes\":[{\"mesh\":-1}]", "nodes[0].mesh: expected a number from 0 to 0, got -1"},
-    {"\"nodes\":[{\"children\":[1]},{\"children\":[0]}]", "nodes: expected a tree, got a node that is below itself"},
-    {"\"nodes\":[{\"children\":[0]}]", "nodes: expected a tree"},
-    {"\"nodes\":[{\"children\":[2]},{\"children\":[2]},{}]",
+    {"'nodes':[{'mesh':0}]", "nodes[0].mesh: expected none, because the file has none"},
+    {POSITION "0}}]}],'nodes':[{'mesh':1}]", "nodes[0].mesh: expected a number from 0 to 0, got 1"},
+    {POSITION "0}}]}],'nodes':[{'mesh':-1}]", "nodes[0].mesh: expected a number from 0 to 0, got -1"},
+    {"'nodes':[{'children':[1]},{'children':[0]}]", "nodes: expected a tree, got a node that is below itself"},
+    {"'nodes':[{'children':[0]}]", "nodes: expected a tree"},
+    {"'nodes':[{'children':[2]},{'children':[2]},{}]",
      "nodes[1].children[0]: expected a node of one parent, got node 2, which nodes[0] has too"},
-    {"\"nodes\":[{\"children\":[9]}]", "nodes[0].children[0]: expected a node from 0 to 0, got another number"},
-    {"\"nodes\":[{\"children\":[\"a\"]}]", "nodes[0].children[0]: expected a node from 0 to 0, got something else"},
-    {"\"nodes\":[{\"translation\":[1,2]}]", "nodes[0].translation: expected 3 numbers, got 2"},
-    {"\"nodes\":[{\"scale\":[1,\"b\",1]}]", "nodes[0].scale[1]: expected a finite number, got something else"},
-    {"\"nodes\":[{\"scale\":[1,1e300,1]}]", "nodes[0].scale[1]: expected a finite number"},
-    {"\"nodes\":[{\"rotation\":[0,0,0,0]}]", "nodes[0].rotation: expected a unit quaternion"},
-    {"\"nodes\":[{}],\"scenes\":[{\"nodes\":[3]}]", "scenes[0].nodes[0]: expected a node from 0 to 0"},
-    {"\"nodes\":[{}],\"scenes\":[{\"nodes\":[0]}],\"scene\":4", "scene.scene: expected a number from 0 to 0, got 4"},
+    {"'nodes':[{'children':[9]}]", "nodes[0].children[0]: expected a node from 0 to 0, got another number"},
+    {"'nodes':[{'children':['a']}]", "nodes[0].children[0]: expected a node from 0 to 0, got something else"},
+    {"'nodes':[{'translation':[1,2]}]", "nodes[0].translation: expected 3 numbers, got 2"},
+    {"'nodes':[{'scale':[1,'b',1]}]", "nodes[0].scale[1]: expected a finite number, got something else"},
+    {"'nodes':[{'scale':[1,1e300,1]}]", "nodes[0].scale[1]: expected a finite number"},
+    {"'nodes':[{'rotation':[0,0,0,0]}]", "nodes[0].rotation: expected a unit quaternion"},
+    {"'nodes':[{}],'scenes':[{'nodes':[3]}]", "scenes[0].nodes[0]: expected a node from 0 to 0"},
+    {"'nodes':[{}],'scenes':[{'nodes':[0]}],'scene':4", "scene.scene: expected a number from 0 to 0, got 4"},
     {POSITION "50}}]}]" NODES, "meshes[0].primitives[0].attributes.POSITION: expected an accessor, got none"},
     {POSITION "1}}]}]" NODES,
      "meshes[0].primitives[0].attributes.POSITION: expected 3 elements of 3 numbers, got 3 of 4"},
     {POSITION "4}}]}]" NODES, "accessors[4]: expected finite numbers, got NaN"},
-    {POSITION "0,\"NORMAL\":3}}]}]" NODES, "attributes.NORMAL: expected 3 elements of 3 numbers, got 1 of 1"},
-    {POSITION "0},\"indices\":3}]}]" NODES,
+    {POSITION "0,'NORMAL':3}}]}]" NODES, "attributes.NORMAL: expected 3 elements of 3 numbers, got 1 of 1"},
+    {POSITION "0},'indices':3}]}]" NODES,
      "meshes[0].primitives[0].indices: expected numbers from 0 to 2, got 7 at place 0"},
-    {POSITION "0},\"indices\":0}]}]" NODES, "meshes[0].primitives[0].indices: expected one number each, got 3"},
-    {POSITION "0},\"mode\":7}]}]" NODES, "meshes[0].primitives[0].mode: expected a number from 0 to 6"},
-    {POSITION "0},\"material\":0}]}]" NODES, "meshes[0].primitives[0].material: expected none"},
-    {POSITION "0},\"targets\":[{}]}],\"weights\":[1,2]}]" NODES, "meshes[0].weights: expected 1 numbers, got 2"},
-    {"\"meshes\":[{\"primitives\":{}}]" NODES, "meshes[0].primitives: expected an array"},
-    {POSITION
-     "0,\"JOINTS_0\":5,\"WEIGHTS_0\":6}}]}],\"skins\":[{\"joints\":[0]}],\"nodes\":[{\"mesh\":0,\"skin\":0}]",
+    {POSITION "0},'indices':0}]}]" NODES, "meshes[0].primitives[0].indices: expected one number each, got 3"},
+    {POSITION "0},'mode':7}]}]" NODES, "meshes[0].primitives[0].mode: expected a number from 0 to 6"},
+    {POSITION "0},'material':0}]}]" NODES, "meshes[0].primitives[0].material: expected none"},
+    {POSITION "0},'targets':[{}]}],'weights':[1,2]}]" NODES, "meshes[0].weights: expected 1 numbers, got 2"},
+    {"'meshes':[{'primitives':{}}]" NODES, "meshes[0].primitives: expected an array"},
+    {POSITION "0,'JOINTS_0':5,'WEIGHTS_0':6}}]}],'skins':[{'joints':[0]}],'nodes':[{'mesh':0,'skin':0}]",
      "nodes[0].skin: expected a skin of 3 joints, which its mesh uses, got 1"},
-    {POSITION "0,\"JOINTS_0\":1,\"WEIGHTS_0\":6}}]}]" NODES, "attributes.JOINTS_0: expected numbers of joints"},
-    {POSITION "0,\"JOINTS_0\":5}}]}]" NODES,
+    {POSITION "0,'JOINTS_0':1,'WEIGHTS_0':6}}]}]" NODES, "attributes.JOINTS_0: expected numbers of joints"},
+    {POSITION "0,'JOINTS_0':5}}]}]" NODES,
      "meshes[0].primitives[0].attributes: expected WEIGHTS_0 beside JOINTS_0, got JOINTS_0 alone"},
-    {"\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":3}}}],\"textures\":[{}]",
+    {"'materials':[{'pbrMetallicRoughness':{'baseColorTexture':{'index':3}}}],'textures':[{}]",
      "materials[0].index: expected a number from 0 to 0, got 3"},
-    {"\"nodes\":[{}],\"skins\":[{}]", "skins[0].joints: expected a joint or more, got none"},
-    {"\"nodes\":[{}],\"skins\":[{\"joints\":[1]}]", "skins[0].joints[0]: expected a node from 0 to 0"},
-    {"\"nodes\":[{}],\"skins\":[{\"joints\":[0],\"inverseBindMatrices\":0}]",
+    {"'nodes':[{}],'skins':[{}]", "skins[0].joints: expected a joint or more, got none"},
+    {"'nodes':[{}],'skins':[{'joints':[1]}]", "skins[0].joints[0]: expected a node from 0 to 0"},
+    {"'nodes':[{}],'skins':[{'joints':[0],'inverseBindMatrices':0}]",
      "skins[0].inverseBindMatrices: expected 1 matrices of 16 numbers, got 3 of 3"},
-    {CLIP("{\"input\":2,\"output\":0}", "scale"),
+    {CLIP("{'input':2,'output':0}", "scale"),
      "animations[0].samplers[0].input: expected ascending times, got 1 after 2"},
-    {CLIP("{\"input\":3,\"output\":0}", "scale"),
+    {CLIP("{'input':3,'output':0}", "scale"),
      "animations[0].samplers[0].output: expected 1 elements of 3 numbers, got 3 of 3"},
-    {CLIP("{\"input\":0,\"output\":0}", "scale"),
-     "animations[0].samplers[0].input: expected times, got 3 numbers a key"},
-    {CLIP("{\"input\":2}", "scale"), "animations[0].samplers[0].output: expected an accessor, got none"},
-    {CLIP("{\"input\":3,\"output\":3,\"interpolation\":\"SOFT\"}", "rotation"),
+    {CLIP("{'input':0,'output':0}", "scale"), "animations[0].samplers[0].input: expected times, got 3 numbers a key"},
+    {CLIP("{'input':2}", "scale"), "animations[0].samplers[0].output: expected an accessor, got none"},
+    {CLIP("{'input':3,'output':3,'interpolation':'SOFT'}", "rotation"),
      "interpolation: expected STEP, LINEAR or CUBICSPLINE, got SOFT"},
     {CLIP("", "scale"), "animations[0].channels[0].sampler: expected none"},
 };
 
 TEST(bad_files_get_one_sentence)
 {
-    const float triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, turns[3][4] = {{0.5f}}, times[] = {2, 1};
-    const float nan[3][3] = {{0}, {0, NAN, 0}}, weights[3][4] = {{1}, {1}, {1}};
-    const uint8_t index = 7, joints[3][4] = {{2}, {1}, {0}};
     struct builder b = {0};
-    add_data(&b, FLOAT, "VEC3", 3, triangle, sizeof triangle);
-    add_data(&b, FLOAT, "VEC4", 3, turns, sizeof turns);
-    add_data(&b, FLOAT, "SCALAR", 2, times, sizeof times);
-    add_data(&b, UBYTE, "SCALAR", 1, &index, 1);
-    add_data(&b, FLOAT, "VEC3", 3, nan, sizeof nan);
-    add_data(&b, UBYTE, "VEC4", 3, joints, sizeof joints);
-    add_data(&b, FLOAT, "VEC4", 3, weights, sizeof weights);
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+    ADD(&b, FLOAT, float, 4, 0.5f, [11] = 0);
+    ADD(&b, FLOAT, float, 1, 2, 1);
+    ADD(&b, UBYTE, uint8_t, 1, 7);
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 0, NAN, 0, 0, 0, 0);
+    ADD(&b, UBYTE, uint8_t, 4, 2, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0);
+    ADD(&b, FLOAT, float, 4, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         assert_refused(builder_json(&b, bad[i].members), bad[i].says);
 }
@@ -119,30 +115,28 @@ TEST(zeros_may_only_follow_the_text)
 
 TEST(bad_containers)
 {
-#define ASSET "{\"asset\":{\"version\":\"2.0\"},"
+#define ASSET "{'asset':{'version':'2.0'},"
     struct gltf gltf;
     assert_refused("", "JSON, line 1");
-    assert_refused("{\"asset\":", "JSON, line 1");
+    assert_refused("{'asset':", "JSON, line 1");
     assert_refused("[1]", "expected a JSON object");
     assert_refused("{}", "asset.version: expected glTF 2.0, got none");
-    assert_refused("{\"asset\":{\"version\":\"1.0\"}}", "asset.version: expected glTF 2.0, got 1.0");
-    assert_refused("{\"asset\":{\"version\":\"2.9\",\"minVersion\":\"2.1\"}}",
-                   "asset.version: expected glTF 2.0, got 2.1");
-    assert_refused(ASSET "\"buffers\":[{\"uri\":\"no.bin\",\"byteLength\":1}]}", "buffers[0].uri: ");
-    assert_refused(ASSET "\"buffers\":[{\"uri\":\"https://a.example/b.bin\",\"byteLength\":1}]}",
+    assert_refused("{'asset':{'version':'1.0'}}", "asset.version: expected glTF 2.0, got 1.0");
+    assert_refused("{'asset':{'version':'2.9','minVersion':'2.1'}}", "asset.version: expected glTF 2.0, got 2.1");
+    assert_refused(ASSET "'buffers':[{'uri':'no.bin','byteLength':1}]}", "buffers[0].uri: ");
+    assert_refused(ASSET "'buffers':[{'uri':'https://a.example/b.bin','byteLength':1}]}",
                    "buffers[0].uri: expected a data URI or a file's name, from the folder of this one, got "
                    "'https://a.example/b.bin'");
-    assert_refused(ASSET "\"buffers\":[{\"uri\":\"/etc/passwd\",\"byteLength\":1}]}", "got '/etc/passwd'");
-    assert_refused(ASSET "\"buffers\":[{\"uri\":\"%2fetc/passwd\",\"byteLength\":1}]}", "got '%2fetc/passwd'");
-    assert_refused(ASSET "\"buffers\":[{\"uri\":\"a%00b\",\"byteLength\":1}]}",
-                   "expected a data URI or a file's name");
-    assert_refused(ASSET "\"buffers\":[{\"uri\":\"data:,abc\",\"byteLength\":1}]}",
+    assert_refused(ASSET "'buffers':[{'uri':'/etc/passwd','byteLength':1}]}", "got '/etc/passwd'");
+    assert_refused(ASSET "'buffers':[{'uri':'%2fetc/passwd','byteLength':1}]}", "got '%2fetc/passwd'");
+    assert_refused(ASSET "'buffers':[{'uri':'a%00b','byteLength':1}]}", "expected a data URI or a file's name");
+    assert_refused(ASSET "'buffers':[{'uri':'data:,abc','byteLength':1}]}",
                    "buffers[0].uri: expected a data URI in base64");
-    assert_refused(ASSET "\"buffers\":[{\"uri\":\"data:;base64,AA*A\",\"byteLength\":1}]}",
+    assert_refused(ASSET "'buffers':[{'uri':'data:;base64,AA*A','byteLength':1}]}",
                    "expected base64, got something else");
-    assert_refused(ASSET "\"buffers\":[{\"uri\":\"data:;base64,AAAA\",\"byteLength\":4}]}",
+    assert_refused(ASSET "'buffers':[{'uri':'data:;base64,AAAA','byteLength':4}]}",
                    "buffers[0].byteLength: expected at most the 3 bytes that are there, got 4");
-    assert_refused(ASSET "\"buffers\":[{\"byteLength\":4}]}", "expected at most the 0 bytes that are there, got 4");
+    assert_refused(ASSET "'buffers':[{'byteLength':4}]}", "expected at most the 0 bytes that are there, got 4");
     assert_refusal(gltf_read("/nowhere.gltf", &gltf, &error), "/nowhere.gltf: cannot be opened");
 }
 
@@ -151,7 +145,8 @@ static long memory_to_read(const char *text, bool *opened)
 {
     int said[2], status;
     long answer[2] = {0, 0};
-    const char *path = temporary_file("claim.gltf", text, strlen(text));
+    static char copy[1 << 16];
+    const char *path = temporary_file("claim.gltf", quote(strcpy(copy, text)), strlen(text));
     assert_int_equal(pipe(said), 0);
     pid_t child = fork();
     if (child == 0) {
@@ -180,41 +175,34 @@ TEST(claims_take_little_memory)
     char picture[512], base64[128];
     *append_base64(base64, png, sizeof png - 1) = '\0';
     snprintf(picture, sizeof picture,
-             ASSET "\"images\":[{\"uri\":\"data:;base64,%s\"}],\"textures\":[{\"source\":0}],\"materials\":[{"
-                   "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],\"nodes\":[{}]}",
+             ASSET "'images':[{'uri':'data:;base64,%s'}],'textures':[{'source':0}],'materials':[{"
+                   "'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}],'nodes':[{}]}",
              base64);
-    strcpy(
-        many, ASSET
-        "\"buffers\":[{\"byteLength\":12,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAA\"}],"
-        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":12}],\"accessors\":[{\"componentType\":5126,\"type\":\"VEC3\","
-        "\"count\":40000,\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{"
-        "\"bufferView\":0}}}],\"nodes\":[{\"mesh\":0}],"
-        "\"meshes\":[{\"primitives\":[");
+    strcpy(many, ASSET "'buffers':[{'byteLength':12,'uri':'data:;base64,AAAAAAAAAAAAAAAA'}],'bufferViews':[{'buffer':"
+                       "0,'byteLength':12}],'accessors':[{'componentType':5126,'type':'VEC3','count':40000,'sparse':{"
+                       "'count':1,'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':0}}}],"
+                       "'nodes':[{'mesh':0}],'meshes':[{'primitives':[");
     for (int i = 0; i < 1000; i++)
-        strcat(many, i ? ",{\"attributes\":{\"POSITION\":0,\"NORMAL\":0}}"
-                       : "{\"attributes\":{\"POSITION\":0,\"NORMAL\":0}}");
+        strcat(many, i ? ",{'attributes':{'POSITION':0,'NORMAL':0}}" : "{'attributes':{'POSITION':0,'NORMAL':0}}");
     strcat(many, "]}]}");
 #define CLAIM(component, type, count, more)                                                                          \
-    ASSET "\"buffers\":[{\"byteLength\":3,\"uri\":\"data:;base64,AAAA\"}],\"bufferViews\":[{\"buffer\":0,"           \
-          "\"byteLength\":3}],"                                                                                      \
-          "\"accessors\":[{\"componentType\":" component ",\"type\":\"" type "\",\"count\":" count more              \
-          "}],\"nodes\":[{"                                                                                          \
-          "\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]}"
+    ASSET "'buffers':[{'byteLength':3,'uri':'data:;base64,AAAA'}],'bufferViews':[{'buffer':0,"                       \
+          "'byteLength':3}],"                                                                                        \
+          "'accessors':[{'componentType':" component ",'type':'" type "','count':" count more "}],'nodes':[{"        \
+          "'mesh':0}],'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]}"
     const struct {
         const char *text;
         bool opens;
     } cases[] = {
         {CLAIM("5126", "VEC3", "30000000", ""), false},
         {CLAIM("5126", "VEC3", "2147483647", ""), false},
-        {CLAIM("5126", "VEC3", "30000000", ",\"bufferView\":0"), false},
+        {CLAIM("5126", "VEC3", "30000000", ",'bufferView':0"), false},
         {CLAIM("5126", "VEC3", "30000000",
-               ",\"sparse\":{\"count\":3,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{"
-               "\"bufferView\":0}}"),
+               ",'sparse':{'count':3,'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':0}}"),
          false},
         {CLAIM("5126", "VEC3", "1000000", ""), false},
         {CLAIM("5126", "VEC3", "1000000",
-               ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{"
-               "\"bufferView\":0}}"),
+               ",'sparse':{'count':1,'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':0}}"),
          false},
         {many, false},
         {picture, true}, // in white, and named
@@ -230,40 +218,32 @@ TEST(claims_take_little_memory)
 /// A small file with everything in it.
 static void build_all(struct builder *b, const char **members)
 {
-    const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
-                weights[4][4] = {{1}, {0.5f, 0.5f}, {1}, {1}};
-    const uint8_t joints[4][4] = {{1}, {1}, {0}, {1}}, indices[] = {0, 1, 2, 3}, places[] = {1, 3};
-    const float times[] = {0, 1}, turns[6][4] = {{0, 0, 0, 1}, {0, 0, 0, 1}, {0}, {0}, {1, 0, 0, 0}, {0}},
-                steps[] = {0, 1};
-    const float inverse[2][16] = {{1}, {1}};
+    const uint8_t places[] = {1, 3};
     char more[256];
-    add_data(b, FLOAT, "VEC3", 4, corners, sizeof corners);
-    add_data(b, UBYTE, "SCALAR", 4, indices, sizeof indices);
-    add_data(b, UBYTE, "VEC4", 4, joints, sizeof joints);
-    add_data(b, FLOAT, "VEC4", 4, weights, sizeof weights);
-    add_data(b, FLOAT, "SCALAR", 2, times, sizeof times);
-    add_data(b, FLOAT, "VEC4", 6, turns, sizeof turns);
-    add_data(b, FLOAT, "SCALAR", 2, steps, sizeof steps);
-    add_data(b, FLOAT, "MAT4", 2, inverse, sizeof inverse);
+    ADD(b, FLOAT, float, 3, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0);
+    ADD(b, UBYTE, uint8_t, 1, 0, 1, 2, 3);
+    ADD(b, UBYTE, uint8_t, 4, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0);
+    ADD(b, FLOAT, float, 4, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0);
+    ADD(b, FLOAT, float, 1, 0, 1);
+    ADD(b, FLOAT, float, 4, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0);
+    ADD(b, FLOAT, float, 1, 0, 1);
+    ADD(b, FLOAT, float, 16, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, [31] = 0);
     snprintf(more, sizeof more,
-             ",\"sparse\":{\"count\":2,\"indices\":{\"bufferView\":%d,\"componentType\":5121},\"values\":{"
-             "\"bufferView\":0}}",
+             ",'sparse':{'count':2,'indices':{'bufferView':%d,'componentType':5121},'values':{'bufferView':0}}",
              add_view(b, places, sizeof places, 0));
     add_accessor(b, FLOAT, "VEC3", 4, more);
     unsigned char png[] = "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x02\0\0\0\x02\x08\x06\0\0\0\x72\xb6\x0d\x24";
     add_view(b, png, sizeof png, 0);
     *members =
-        "\"images\":[{\"bufferView\":9}],\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":{"
-        "\"baseColorTexture\":{\"index\":0},\"baseColorFactor\":[1,1,1,1]}}],"
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":2,\"WEIGHTS_0\":3},\"indices\":1,"
-        "\"mode\":5,\"material\":0,\"targets\":[{\"POSITION\":8}]},{\"attributes\":{\"POSITION\":0,\"NORMAL\":0},"
-        "\"indices\":1,\"targets\":[{\"POSITION\":8,\"NORMAL\":8}]}],\"weights\":[0.5]}],\"skins\":[{\"joints\":[1,2]"
-        ","
-        "\"inverseBindMatrices\":7}],\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0,\"skin\":0,"
-        "\"weights\":[1]},{\"children\":[2]},{\"rotation\":[0,0,0,1]}],\"animations\":[{\"channels\":[{\"sampler\":0,"
-        "\"target\":{\"node\":2,\"path\":\"rotation\"}},{\"sampler\":1,\"target\":{\"node\":0,\"path\":\"weights\"}}]"
-        ","
-        "\"samplers\":[{\"input\":4,\"output\":5,\"interpolation\":\"CUBICSPLINE\"},{\"input\":4,\"output\":6}]}]";
+        "'images':[{'bufferView':9}],'textures':[{'source':0}],'materials':[{'pbrMetallicRoughness':{"
+        "'baseColorTexture':{'index':0},'baseColorFactor':[1,1,1,1]}}],'meshes':[{'primitives':[{'attributes':{"
+        "'POSITION':0,'JOINTS_0':2,'WEIGHTS_0':3},'indices':1,'mode':5,'material':0,'targets':[{'POSITION':8}]},"
+        "{'attributes':{'POSITION':0,'NORMAL':0},'indices':1,'targets':[{'POSITION':8,'NORMAL':8}]}],"
+        "'weights':[0.5]}],'skins':[{'joints':[1,2],'inverseBindMatrices':7}],'scene':0,'scenes':[{'nodes':[0,1]}],"
+        "'nodes':[{'mesh':0,'skin':0,'weights':[1]},{'children':[2]},{'rotation':[0,0,0,1]}],'animations':[{"
+        "'channels':[{'sampler':0,'target':{'node':2,'path':'rotation'}},{'sampler':1,'target':{'node':0,"
+        "'path':'weights'}}],'samplers':[{'input':4,'output':5,'interpolation':'CUBICSPLINE'},{'input':4,'output':6}]"
+        "}]";
 }
 
 /// Poses all that was read, as the app would.

@@ -35,11 +35,10 @@ static size_t add_action(struct builder *b, const struct action *action, char *j
     }
     const int input = add_data(b, FLOAT, "SCALAR", count, times, (size_t)count * sizeof *times);
     const int output = add_data(b, FLOAT, "VEC4", count, turns, (size_t)count * sizeof *turns);
-    return (size_t)sprintf(
-        json,
-        "{\"name\":\"%s\",\"samplers\":[{\"input\":%d,\"output\":%d}],\"channels\":[{\"sampler\":0,"
-        "\"target\":{\"node\":%d,\"path\":\"rotation\"}}]}",
-        action->name, input, output, ARM);
+    return (size_t)sprintf(json,
+                           "{'name':'%s','samplers':[{'input':%d,'output':%d}],'channels':[{'sampler':0,'target':{"
+                           "'node':%d,'path':'rotation'}}]}",
+                           action->name, input, output, ARM);
 }
 
 /// A file of an arm, a hand and a finger, with these clips.
@@ -49,11 +48,9 @@ static const char *write_actions(const struct action *from, int count)
     struct builder b = {0};
     char json[4096], *end = json;
     add_data(&b, FLOAT, "VEC3", 3, position, sizeof position);
-    end +=
-        sprintf(end, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"scenes\":[{\"nodes\":[0]}],"
-                     "\"nodes\":[{\"name\":\"arm\",\"mesh\":0,\"children\":[1]},"
-                     "{\"name\":\"hand\",\"translation\":[0,1,0],\"children\":[2]},"
-                     "{\"name\":\"finger\",\"translation\":[0,0.5,0]}],\"animations\":[");
+    end += sprintf(end, "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'scenes':[{'nodes':[0]}],'nodes':["
+                        "{'name':'arm','mesh':0,'children':[1]},{'name':'hand','translation':[0,1,0],'children':[2]},"
+                        "{'name':'finger','translation':[0,0.5,0]}],'animations':[");
     for (int a = 0; a < count; a++) {
         if (a > 0) *end++ = ',';
         end += add_action(&b, &from[a], end);
@@ -195,8 +192,8 @@ static struct document *scene_of_keys(double first, double step, int count)
     const int input = add_data(b, FLOAT, "SCALAR", count, times, (size_t)count * sizeof *times);
     const int output = add_data(b, FLOAT, "VEC3", count, places, (size_t)count * sizeof *places);
     sprintf(json,
-            "\"nodes\":[{\"name\":\"it\"}],\"animations\":[{\"name\":\"Hit\",\"samplers\":[{\"input\":%d,"
-            "\"output\":%d}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}}]}]",
+            "'nodes':[{'name':'it'}],'animations':[{'name':'Hit','samplers':[{'input':%d,'output':%d}],'channels':[{"
+            "'sampler':0,'target':{'node':0,'path':'translation'}}]}]",
             input, output);
     const char *text = builder_json(b, json);
     assert_done(document = import_scene(temporary_file("keys.gltf", text, strlen(text)), &error));
@@ -299,9 +296,9 @@ static int add_gait(struct builder *b, const struct gait_case *of, int node, cha
         const int output = path ? add_data(b, FLOAT, "VEC4", of->keys, turns, count * sizeof *turns)
                                 : add_data(b, FLOAT, "VEC3", of->keys, places, count * sizeof *places);
         const char *comma = node + path > 0 ? "," : "";
-        *samplers += sprintf(*samplers, "%s{\"input\":%d,\"output\":%d}", comma, input, output);
-        *channels += sprintf(*channels, "%s{\"sampler\":%d,\"target\":{\"node\":%d,\"path\":\"%s\"}}", comma,
-                             node + path, node, path ? "rotation" : "translation");
+        *samplers += sprintf(*samplers, "%s{'input':%d,'output':%d}", comma, input, output);
+        *channels += sprintf(*channels, "%s{'sampler':%d,'target':{'node':%d,'path':'%s'}}", comma, node + path, node,
+                             path ? "rotation" : "translation");
     }
     return input;
 }
@@ -314,14 +311,12 @@ static const char *write_gait(const struct gait_case *of)
     b = (struct builder){0};
     add_data(&b, FLOAT, "VEC3", 3, position, sizeof position);
     for (int node = 0; node < (of->gait == DOOR ? 1 : 4); node++) add_gait(&b, of, node, &sampler, &channel);
-    sprintf(
-        json,
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"scenes\":[{\"nodes\":[0]}],\"nodes\":["
-        "{\"name\":\"hips\",\"mesh\":0,\"children\":[1,2,3]},{\"name\":\"left\"},{\"name\":\"right\"},"
-        "{\"name\":\"tail\",\"translation\":[0,0,-0.3],\"children\":[4]},{\"name\":\"tip\",\"translation\":[0,0,-0.3]"
-        "}],"
-        "\"animations\":[{\"name\":\"gait\",\"samplers\":[%s],\"channels\":[%s]}]",
-        samplers, channels);
+    sprintf(json,
+            "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'scenes':[{'nodes':[0]}],'nodes':[{'name':"
+            "'hips','mesh':0,'children':[1,2,3]},{'name':'left'},{'name':'right'},{'name':'tail','translation':[0,0,-"
+            "0.3],'children':[4]},{'name':'tip','translation':[0,0,-0.3]}],"
+            "'animations':[{'name':'gait','samplers':[%s],'channels':[%s]}]",
+            samplers, channels);
     const char *text = builder_json(&b, json);
     return temporary_file("gait.gltf", text, strlen(text));
 }
@@ -405,39 +400,30 @@ static const char *write_theirs(char json[1 << 14])
     const int step = add_data(&b, FLOAT, "VEC3", 5, steps, sizeof steps),
               turn = add_data(&b, FLOAT, "VEC4", 5, turns, sizeof turns);
     char view[64];
-    snprintf(view, sizeof view, ",\"normalized\":true,\"bufferView\":%d", add_view(&b, halves, sizeof halves, 0));
+    snprintf(view, sizeof view, ",'normalized':true,'bufferView':%d", add_view(&b, halves, sizeof halves, 0));
     const int half = add_accessor(&b, SHORT, "VEC4", 2, view),
               cube = add_data(&b, FLOAT, "VEC3", 6, cubic, sizeof cubic);
     const int index = add_view(&b, at, 1, 0), thing = add_view(&b, value, sizeof value, 0);
     snprintf(sparse, sizeof sparse,
-             ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":%d,\"componentType\":5121},\"values\":{"
-             "\"bufferView\":%d}}",
+             ",'sparse':{'count':1,'indices':{'bufferView':%d,'componentType':5121},'values':{'bufferView':%d}}",
              index, thing);
     const int thin = add_accessor(&b, FLOAT, "VEC3", 2, sparse);
     snprintf(
         members, sizeof members,
-        "\"scenes\":[{\"nodes\":[0,3,4]}],\"materials\":[{\"name\":\"glow\"}],\"extensionsUsed\":[\"KHR_animation_"
-        "pointer\",\"EXT_none\"],\"nodes\":["
-        "{\"name\":\"arm\",\"children\":[1]},{\"name\":\"hand\",\"translation\":[0,1,0],\"children\":[2]},{\"name\":"
-        "\"finger\","
-        "\"translation\":[0,0.5,0]},{\"name\":\"prop\"},{\"name\":\"lamp\",\"matrix\":[1,0,0,0,0,0,-1,0,0,1,0,0,3,0,"
+        "'scenes':[{'nodes':[0,3,4]}],'materials':[{'name':'glow'}],'extensionsUsed':['KHR_animation_pointer','EXT_"
+        "none'],'nodes':[{'name':'arm','children':[1]},{'name':'hand','translation':[0,1,0],'children':[2]},{'name':"
+        "'finger','translation':[0,0.5,0]},{'name':'prop'},{'name':'lamp','matrix':[1,0,0,0,0,0,-1,0,0,1,0,0,3,0,"
         "0,1]}],"
-        "\"animations\":[{\"extras\":{\"event\":\"step@0.3\"},\"name\":\"Act\",\"extensions\":{\"EXT_none\":{\"k\":["
-        "1.5]}},\"samplers\":["
-        "{\"input\":%d,\"output\":%d,\"interpolation\":\"STEP\",\"extras\":5},{\"input\":%d,\"output\":%d},{"
-        "\"input\":%d,\"output\":%d,"
-        "\"interpolation\":\"CUBICSPLINE\"},{\"input\":%d,\"output\":%d},{\"input\":%d,\"output\":%d},{\"input\":%d,"
-        "\"output\":%d},"
-        "{\"input\":%d,\"output\":%d},{\"input\":%d,\"output\":%d,\"interpolation\":\"CUBICSPLINE\"}],\"channels\":["
-        "{\"sampler\":0,\"target\":{\"node\":3,\"path\":\"scale\"}},{\"sampler\":1,\"target\":{\"node\":3,\"path\":"
-        "\"rotation\"}},"
-        "{\"sampler\":2,\"target\":{\"node\":0,\"path\":\"translation\"}},{\"sampler\":3,\"target\":{\"node\":3,"
-        "\"path\":\"translation\"}},"
-        "{\"sampler\":4,\"target\":{\"path\":\"pointer\",\"extensions\":{\"KHR_animation_pointer\":{\"pointer\":\"/"
-        "materials/0/emissiveFactor\"}}}},"
-        "{\"sampler\":5,\"extras\":1,\"target\":{\"node\":1,\"path\":\"rotation\"}},{\"sampler\":6,\"target\":{"
-        "\"path\":\"translation\"}},"
-        "{\"sampler\":7,\"target\":{\"node\":4,\"path\":\"translation\"}}]}]",
+        "'animations':[{'extras':{'event':'step@0.3'},'name':'Act','extensions':{'EXT_none':{'k':[1.5]}},'samplers':["
+        "{'input':%d,'output':%d,'interpolation':'STEP','extras':5},{'input':%d,'output':%d},{'input':%d,'output':%d,"
+        "'interpolation':'CUBICSPLINE'},{'input':%d,'output':%d},{'input':%d,'output':%d},{'input':%d,'output':%d},{"
+        "'input':%d,'output':%d},{'input':%d,'output':%d,'interpolation':'CUBICSPLINE'}],'channels':[{'sampler':0,"
+        "'target':{'node':3,'path':'scale'}},{'sampler':1,'target':{'node':3,'path':'rotation'}},{'sampler':2,"
+        "'target'"
+        ":{'node':0,'path':'translation'}},{'sampler':3,'target':{'node':3,'path':'translation'}},{'sampler':4,"
+        "'target':{'path':'pointer','extensions':{'KHR_animation_pointer':{'pointer':'/materials/0/"
+        "emissiveFactor'}}}},{'sampler':5,'extras':1,'target':{'node':1,'path':'rotation'}},{'sampler':6,'target':{"
+        "'path':'translation'}},{'sampler':7,'target':{'node':4,'path':'translation'}}]}]",
         t5, step, t2, half, t2, cube, t2, thin, t5, step, t5, turn, tm, thin, tm, cube);
     snprintf(json, 1 << 14, "%s", builder_json(&b, members));
     return temporary_file("theirs.gltf", json, strlen(json));
@@ -520,11 +506,10 @@ TEST(a_bone_of_a_chain_keeps_its_steps)
     const int output = add_data(&b, FLOAT, "VEC4", 4, turns, sizeof turns);
     snprintf(
         json, sizeof json,
-        "\"nodes\":[{\"name\":\"arm\",\"children\":[1]},{\"name\":\"hand\",\"translation\":[0,1,0],\"children\":[2]},"
-        "{\"name\":\"finger\",\"translation\":[0,1,0]}],\"animations\":[{\"name\":\"Act\",\"samplers\":[{\"input\":%"
+        "'nodes':[{'name':'arm','children':[1]},{'name':'hand','translation':[0,1,0],'children':[2]},{'name':'finger'"
+        ",'translation':[0,1,0]}],'animations':[{'name':'Act','samplers':[{'input':%"
         "d,"
-        "\"output\":%d,\"interpolation\":\"STEP\"}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":"
-        "\"rotation\"}}]}]",
+        "'output':%d,'interpolation':'STEP'}],'channels':[{'sampler':0,'target':{'node':1,'path':'rotation'}}]}]",
         input, output);
     const char *text = builder_json(&b, json), *file = temporary_file("steps.gltf", text, strlen(text));
     for (int cubic = 0; cubic < 2; cubic++) {

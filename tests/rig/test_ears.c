@@ -31,10 +31,10 @@ static int print_ear(const struct pair *pair, const struct ear *ear, int side, c
     char *end = out;
     set_way(pair, &root, side, 1, at);
     for (int n = 0; n < BONES; n++) {
-        end += sprintf(end, ",{\"name\":\"Ear%d.%c\",\"translation\":[%.9g,%.9g,%.9g]", n + 1, "LR"[side],
-                       (double)at[0], (double)at[1], (double)at[2]);
-        if (n == 0) end += sprintf(end, ",\"rotation\":[0.5,0.5,0.5,0.5]");
-        end += sprintf(end, n + 1 < BONES ? ",\"children\":[%d]}" : "}", 2 + BONES * side + n + 1);
+        end += sprintf(end, ",{'name':'Ear%d.%c','translation':[%.9g,%.9g,%.9g]", n + 1, "LR"[side], (double)at[0],
+                       (double)at[1], (double)at[2]);
+        if (n == 0) end += sprintf(end, ",'rotation':[0.5,0.5,0.5,0.5]");
+        end += sprintf(end, n + 1 < BONES ? ",'children':[%d]}" : "}", 2 + BONES * side + n + 1);
         set_way(pair, ear, side, 0.1f, turned);
         for (int k = 0; k < 3; k++) at[k] = turned[(k + 1) % 3];
     }
@@ -48,9 +48,8 @@ static void open_pair(struct pair *pair, const struct ear *ear, bool follows)
     struct builder b = {0};
     add_data(&b, FLOAT, "VEC3", 3, triangle, sizeof triangle);
     char *end = text + sprintf(text,
-                               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
-                               "\"scenes\":[{\"nodes\":[0,1]}],\"nodes\":[{\"mesh\":0},{\"name\":\"head\","
-                               "\"children\":[2,%d]}",
+                               "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'scenes':[{'nodes':[0,1]}],"
+                               "'nodes':[{'mesh':0},{'name':'head','children':[2,%d]}",
                                2 + BONES);
     for (int side = 0; side < 2; side++) end += print_ear(pair, ear, side, end);
     sprintf(end, "]");
