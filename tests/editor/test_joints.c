@@ -28,6 +28,7 @@ static void open_beast(struct session *session, const char *equilibrium)
 }
 
 #define FOLLOWS "{\"model\": \"beast\", \"joint\": \"head\", \"of\": \"turn\", \"gain\": 2}"
+#define FOLLOWS_TIP "{\"model\": \"beast\", \"joint\": \"tail_8\", \"of\": \"up\", \"chain\": \"tail\"}"
 
 static const struct param *equilibrium(const struct session *session)
 {
@@ -36,53 +37,99 @@ static const struct param *equilibrium(const struct session *session)
 
 static const struct chain *tail(const struct session *session) { return &session->document->rigs[1]->chain; }
 
-SESSION_TEST(test_an_equilibrium_comes_to_follow_the_tip_of_its_chain, open_beast(s, "0"))
+static void turn_from(struct session *s, const char *target) { session_carry(s, target, 30, 20, 4); }
+static void shows(struct session *s, const char *widget) { assert_true(panel_shows(s, widget)); }
+static void lacks(struct session *s, const char *widget) { assert_false(panel_shows(s, widget)); }
+static void gain(struct session *s, const char *number) { panel_enter(s, "joint.gain", number); }
+/// By its first letter; LEAVE is Esc.
+static void key(struct session *s, const char *name)
 {
-    const char *before = session_saved(s);
-    panel_click(s, "follow.equilibrium");
-    panel_click(s, "item.A joint of beast");
-    assert_non_null(equilibrium(s)->motion);
-    assert_string_equal(equilibrium(s)->motion->joint, "tail_8");
+    static const int keys[] = {['B'] = KEY_BACKSPACE, ['D'] = KEY_DOWN, ['E'] = KEY_ENTER, ['L'] = KEY_ESCAPE};
+    session_key(s, keys[(size_t)*name], 0);
+}
+
+/// Steps with ; between them.
+static void take_steps(struct session *s, const char *steps)
+{
+    static const struct {
+        const char *word;
+        void (*take)(struct session *s, const char *what);
+    } all[] = {{"panel", panel_click}, {"on", session_click},  {"turn", turn_from},
+               {"tab", panel_tab_to},  {"type", session_type}, {"gain", gain},
+               {"shows", shows},       {"lacks", lacks},       {"key", key}};
+    for (char word[16], what[64]; *steps;) {
+        int used = 0;
+        size_t i = 0;
+        assert_int_equal(sscanf(steps, " %15[a-z] %63[^;]%n", word, what, &used), 2);
+        while (strcmp(word, all[i].word) != 0) assert_true(++i < sizeof all / sizeof *all);
+        all[i].take(s, what);
+        steps += used + (steps[used] == ';');
+    }
+}
+
+/// What is chosen is in the scene, by one step; or nothing is changed, and said to be wrong.
+TEST(test_bones_are_chosen)
+{
+    static const struct {
+        const char *equilibrium, *steps;
+        const char *saves[2]; ///< NULL: nothing has changed
+        const char *error;
+    } rows[] = {
+        // from the start it follows the tip of its chain, as the swing only: a metre is more of the tip than 1 of what knots directed
+        {"0",
+         "panel follow.equilibrium;panel item.A joint of beast",
+         {"\"joint\": \"tail_8\", \"of\": \"up\", \"gain\": ", "\"axis\": \"up\", \"of\": \"displacement\""},
+         NULL},
+        {FOLLOWS, "panel joint.0;panel item.neck", {"\"joint\": \"neck\", \"of\": \"turn\", \"gain\": 2"}, NULL},
+        {FOLLOWS, "panel joint.of.across", {"\"joint\": \"head\", \"of\": \"across\", \"gain\": 2"}, NULL},
+        {FOLLOWS, "gain -3", {"\"joint\": \"head\", \"of\": \"turn\", \"gain\": -3"}, NULL},
+        {FOLLOWS,
+         "tab joint.0;key ENTER;type fr_2;shows item.leg_FR_2;lacks item.leg_FL_2;key BACKSPACE;shows item.leg_FR_1;"
+         "key DOWN;key ENTER",
+         {"\"joint\": \"leg_FR_2\""},
+         NULL},
+        {FOLLOWS, "panel joint.pick;key LEAVE;on bone(leg_FL_2)", {NULL}, NULL}, // the click only selected the bone
+        {FOLLOWS, "panel joint.pick;turn bone(tail_4)", {NULL}, NULL},           // also over a chain
+        {FOLLOWS, "panel joint.pick;turn bone(tail_4);on bone(neck)", {"\"joint\": \"neck\""}, NULL},
+        {FOLLOWS,
+         "panel joint.pick;on bone(neck);on bone(spine)",
+         {"\"joint\": \"neck\""},
+         NULL}, // one click was asked for
+        // the end of a chain is below its first bone, and what follows its tip still does
+        {FOLLOWS_TIP,
+         "panel chain.to.1;lacks item.neck;panel item.tail_6",
+         {"\"to\": \"tail_6\"", "\"joint\": \"tail_6\""},
+         NULL},
+        {FOLLOWS_TIP,
+         "panel chain.from.1;type tail_2;key ENTER",
+         {"\"from\": \"tail_2\"", "\"to\": \"tail_8\""},
+         NULL},
+        {"0", "panel chain.from.pick;on bone(ear_L_1)", {"\"from\": \"ear_L_1\"", "\"to\": \"ear_L_2\""}, NULL},
+        {"0", "panel chain.to.pick;on bone(neck)", {NULL}, "expected \"neck\" below \"tail_1\""},
+        {"0", "panel chain.from.pick;on bone(head)", {NULL}, "\"head\" branches into"},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        struct session s;
+        open_beast(&s, rows[r].equilibrium);
+        const char *before = session_saved(&s);
+        take_steps(&s, rows[r].steps);
+        if (!rows[r].saves[0]) assert_saved(&s, before);
+        if (rows[r].saves[0]) assert_one_step(&s, before);
+        for (int k = 0; k < 2 && rows[r].saves[k]; k++) {
+            if (!strstr(session_saved(&s), rows[r].saves[k])) fail_msg("%s: no %s", rows[r].steps, rows[r].saves[k]);
+        }
+        if (rows[r].error) assert_said_error(s.editor, rows[r].error);
+        session_close(&s);
+    }
+}
+
+SESSION_TEST(test_an_equilibrium_that_follows_comes_back, open_beast(s, "0"))
+{
+    take_steps(s, "panel follow.equilibrium;panel item.A joint of beast");
+    assert_true(equilibrium(s)->motion->gain > 1);
     assert_string_equal(equilibrium(s)->motion->chain, "tail");
-    assert_int_equal(equilibrium(s)->motion->of, MOTION_UP);
-    assert_true(equilibrium(s)->motion->gain > 1); // a metre is more of the tip than 1 of what knots directed
-    assert_int_equal(tail(s)->channels[0].of, PART_DISPLACEMENT);
-    assert_one_step(s, before);
     panel_click(s, "follow.equilibrium");
     assert_null(equilibrium(s)->motion);
-}
-
-SESSION_TEST(test_a_joint_is_chosen_from_a_list, open_beast(s, FOLLOWS))
-{
-    const char *before = session_saved(s);
-    panel_click(s, "joint.0");
-    panel_click(s, "item.neck");
-    assert_string_equal(equilibrium(s)->motion->joint, "neck");
-    assert_int_equal(equilibrium(s)->motion->of, MOTION_TURN);
-    assert_near(equilibrium(s)->motion->gain, 2, 0);
-    assert_one_step(s, before);
-    panel_click(s, "joint.of.across");
-    assert_int_equal(equilibrium(s)->motion->of, MOTION_ACROSS);
-    panel_enter(s, "joint.gain", "-3");
-    assert_near(equilibrium(s)->motion->gain, -3, 0);
-    assert_string_equal(equilibrium(s)->motion->joint, "neck");
-    for (int step = 0; step < 3; step++) session_key(s, 'Z', MOD_CTRL);
-    assert_saved(s, before);
-}
-
-/// Tab to the field, Enter, a few letters, Enter.
-SESSION_TEST(test_a_joint_is_found_by_typing, open_beast(s, FOLLOWS))
-{
-    panel_tab_to(s, "joint.0");
-    session_key(s, KEY_ENTER, 0);
-    session_type(s, "fr_2");
-    assert_true(panel_shows(s, "item.leg_FR_2"));
-    assert_false(panel_shows(s, "item.leg_FL_2"));
-    session_key(s, KEY_BACKSPACE, 0);
-    assert_true(panel_shows(s, "item.leg_FR_1"));
-    session_key(s, KEY_DOWN, 0);
-    session_key(s, KEY_ENTER, 0);
-    assert_string_equal(equilibrium(s)->motion->joint, "leg_FR_2");
 }
 
 static int lines_on_stage(const struct session *session)
@@ -97,71 +144,15 @@ static int lines_on_stage(const struct session *session)
     return count;
 }
 
-SESSION_TEST(test_a_joint_is_picked_on_the_stage, open_beast(s, FOLLOWS))
+SESSION_TEST(test_all_bones_are_shown_to_choose_from, open_beast(s, FOLLOWS))
 {
-    const char *before = session_saved(s);
     session_move(s, 2, 2); // over no model
     session_frame(s);
     const int without = lines_on_stage(s);
     panel_click(s, "joint.pick");
     session_move(s, 2, 2);
     session_frame(s);
-    assert_true(lines_on_stage(s) > without + 8); // all bones, to choose from
-    session_key(s, KEY_ESCAPE, 0);
-    session_click(s, "bone(leg_FL_2)");
-    assert_saved(s, before); // Esc had let go: the click only selected the bone
-    panel_click(s, "joint.pick");
-    session_carry(s, "bone(tail_4)", 30, 20, 4); // a drag turns the camera, also over a chain
-    assert_saved(s, before);
-    session_click(s, "bone(neck)");
-    assert_string_equal(equilibrium(s)->motion->joint, "neck");
-    assert_one_step(s, before);
-    const char *after = session_saved(s);
-    session_click(s, "bone(spine)");
-    assert_saved(s, after); // one click is what was asked for
-}
-
-SESSION_TEST(test_the_ends_of_a_chain_are_chosen_from_lists,
-             open_beast(s, "{\"model\": \"beast\", \"joint\": \"tail_8\", \"of\": \"up\", \"chain\": \"tail\"}"))
-{
-    const char *before = session_saved(s);
-    panel_click(s, "chain.to.1");
-    assert_false(panel_shows(s, "item.neck")); // not below the first bone
-    panel_click(s, "item.tail_6");
-    assert_string_equal(tail(s)->to, "tail_6");
-    assert_string_equal(equilibrium(s)->motion->joint, "tail_6"); // it still follows the tip
-    assert_one_step(s, before);
-    panel_click(s, "chain.from.1");
-    session_type(s, "tail_2");
-    session_key(s, KEY_ENTER, 0);
-    assert_string_equal(tail(s)->from, "tail_2");
-    assert_string_equal(tail(s)->to, "tail_6");
-    session_key(s, 'Z', MOD_CTRL);
-    session_key(s, 'Z', MOD_CTRL);
-    assert_saved(s, before);
-}
-
-SESSION_TEST(test_a_chain_goes_to_another_limb, open_beast(s, "0"))
-{
-    const char *before = session_saved(s);
-    panel_click(s, "chain.from.pick");
-    session_click(s, "bone(ear_L_1)");
-    assert_string_equal(tail(s)->from, "ear_L_1");
-    assert_string_equal(tail(s)->to, "ear_L_2");
-    assert_one_step(s, before);
-}
-
-SESSION_TEST(test_ends_that_are_no_chain_are_refused, open_beast(s, "0"))
-{
-    const char *before = session_saved(s);
-    panel_click(s, "chain.to.pick");
-    session_click(s, "bone(neck)");
-    assert_saved(s, before);
-    assert_said_error(s->editor, "expected \"neck\" below \"tail_1\"");
-    panel_click(s, "chain.from.pick");
-    session_click(s, "bone(head)");
-    assert_saved(s, before);
-    assert_said(s->editor, "\"head\" branches into");
+    assert_true(lines_on_stage(s) > without + 8);
 }
 
 /// Two beasts side by side: a bone goes by its character's name, and can be asked for by it.
