@@ -1,7 +1,6 @@
 /// creature.glb: what is written reads back equal; what other programs write reads too; what is broken is refused.
+#include "gltf_builder.h"
 #include "model/character.h"
-#include "near.h"
-#include "temporary.h"
 
 /// A tetrahedron with two coordinates and coloured corners.
 static void make_character(struct character *c)
@@ -84,21 +83,21 @@ TEST_OF(struct character, c, make_character(c), character_free(c), normals_point
     }
 }
 
-/// A .glb of this JSON and these bytes.
+/// A .glb of this JSON, with ' for ", and these bytes.
 static const char *glb(const char *json, const void *bin, size_t bin_size)
 {
-    static unsigned char data[8192];
+    static char data[8192];
     uint32_t length = (uint32_t)strlen(json), size = (uint32_t)bin_size;
     const uint32_t header[5] = {0x46546C67, 2, 20 + length + 8 + size, length, 0x4E4F534A};
     const uint32_t chunk[2] = {size, 0x004E4942};
     memcpy(data, header, sizeof header);
-    memcpy(data + 20, json, length);
+    quote(strcpy(data + 20, json));
     memcpy(data + 20 + length, chunk, sizeof chunk);
     memcpy(data + 28 + length, bin, bin_size);
     return temporary_file("other.glb", data, 28 + length + bin_size);
 }
 
-#define HEAD "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{}],\"nodes\":[{\"mesh\":0}]"
+#define HEAD "{'asset':{'version':'2.0'},'buffers':[{}],'nodes':[{'mesh':0}]"
 
 /// What another exporter may write: interleaved positions and byte colours with alpha, short indices, two primitives, a
 /// target that is sparse and one that is left out, and other targets between ours.
@@ -115,19 +114,17 @@ TEST(a_file_of_another_program)
              {2, 1, 0, 1}, // three indices, then the place of the sparse element
              {0.5f, 0, 2}};
     const char *json =
-        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":68}],\"bufferViews\":["
-        "{\"buffer\":0,\"byteLength\":48,\"byteStride\":16},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":8},"
-        "{\"buffer\":0,\"byteOffset\":56,\"byteLength\":12}],\"accessors\":["
-        "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
-        "{\"bufferView\":0,\"byteOffset\":12,\"componentType\":5121,\"normalized\":true,\"count\":3,\"type\":"
-        "\"VEC4\"},"
-        "{\"bufferView\":1,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"},"
-        "{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,"
-        "\"byteOffset\":6,\"componentType\":5123},\"values\":{\"bufferView\":2}}}],"
-        "\"nodes\":[{\"mesh\":1}],\"meshes\":[{\"primitives\":[{\"attributes\":{}}]},{\"primitives\":["
-        "{\"attributes\":{\"POSITION\":0,\"COLOR_0\":1},\"indices\":2,\"targets\":[{},{\"POSITION\":3},{}]},"
-        "{\"attributes\":{\"POSITION\":0},\"targets\":[{},{},{}]}],"
-        "\"extras\":{\"targetNames\":[\"up.re\",\"up.im\",\"smile\"]}}]}";
+        "{'asset':{'version':'2.0'},'buffers':[{'byteLength':68}],'bufferViews':[{'buffer':0,'byteLength':48,"
+        "'byteStride':16},{'buffer':0,'byteOffset':48,'byteLength':8},{'buffer':0,'byteOffset':56,'byteLength':12}],"
+        "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':0,'byteOffset':12,"
+        "'componentType':5121,'normalized':true,'count':3,'type':'VEC4'},{'bufferView':1,'componentType':5123,'count'"
+        ":"
+        "3,'type':'SCALAR'},{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':1,'indices':{'bufferView'"
+        ":1,'byteOffset':6,'componentType':5123},'values':{'bufferView':2}}}],'nodes':[{'mesh':1}],'meshes':[{"
+        "'primitives':[{'attributes':{}}]},{'primitives':[{'attributes':{'POSITION':0,'COLOR_0':1},'indices':2,"
+        "'targets':[{},{'POSITION':3},{}]},{'attributes':{'POSITION':0},'targets':[{},{},{}]}],'extras':{"
+        "'targetNames'"
+        ":['up.re','up.im','smile']}}]}";
     struct character c;
     read_good(glb(json, &bin, sizeof bin), &c);
     assert_int_equal(c.vertex_count, 6);
@@ -151,15 +148,13 @@ TEST(a_mesh_stands_where_its_node_puts_it)
 {
     const float bin[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
     struct character c;
-    read_good(
-        glb("{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
-            "\"accessors\":[{\"bufferView\":0,"
-            "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"nodes\":[{\"mesh\":0,\"scale\":[-2,2,2]},"
-            "{\"children\":[0],\"translation\":[0,5,0],\"rotation\":[0,0.7071067811865476,0,0.7071067811865476]}],"
-            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0},{}]}],"
-            "\"extras\":{\"targetNames\":[\"a.re\",\"a.im\"]}}]}",
-            bin, sizeof bin),
-        &c);
+    read_good(glb("{'asset':{'version':'2.0'},'buffers':[{}],'bufferViews':[{'buffer':0,'byteLength':36}],'accessors'"
+                  ":[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],'nodes':[{'mesh':0,'scale':[-2,2,"
+                  "2]},{'children':[0],'translation':[0,5,0],'rotation':[0,0.7071067811865476,0,0.7071067811865476]}]"
+                  ",'meshes':[{'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':0},{}]}],'extras':{"
+                  "'targetNames':['a.re','a.im']}}]}",
+                  bin, sizeof bin),
+              &c);
     assert_near(c.position[1][1], 5, 1e-6);
     assert_near(c.position[1][2], 2, 1e-6); // x is mirrored to -2, which the quarter turn makes +2 in z
     assert_near(c.position[2][0], 2, 1e-6);
@@ -187,10 +182,10 @@ TEST(triangles_that_repeat_a_vertex_are_left_out)
     char json[1024];
     struct character c;
 #define REPEATS                                                                                                      \
-    HEAD ",\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":12}],"   \
-         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1," \
-         "\"componentType\":5123,\"count\":%d,\"type\":\"SCALAR\"}],\"materials\":[{\"name\":\"red\"}],\"meshes\":[" \
-         "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]}]}"
+    HEAD ",'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':12}],"               \
+         "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':1,"               \
+         "'componentType':5123,'count':%d,'type':'SCALAR'}],'materials':[{'name':'red'}],'meshes':["                 \
+         "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]}"
     snprintf(json, sizeof json, REPEATS, 6);
     read_good(glb(json, &bin, sizeof bin), &c);
     const uint32_t indices[] = {0, 1, 2};
@@ -204,56 +199,47 @@ TEST(triangles_that_repeat_a_vertex_are_left_out)
                    "expected a mesh of triangles, got triangles without area");
 }
 
-#define MESH "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
-#define VIEW "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]"
+#define MESH "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]"
+#define SOFT                                                                                                         \
+    "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}],'extras':{'targetNames':['a.re','a.im','b.re','b.im']}" \
+    "}]"
+#define ACCESSOR(view, count, type, more) "{" view "'componentType':5126,'count':" count ",'type':'" type "'" more "}"
+#define VIEW "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':["
 
 TEST(bad_files_get_one_sentence)
 {
-    float bin[9] = {0, 0, 0, 1, 0, 0, 0, (float)NAN, 0};
+    static const struct {
+        const char *json;
+        size_t bytes; ///< of three vertices, one of them no number
+        const char *says;
+    } rows[] = {
+        {"{", 0, "JSON, line 1"},
+        {"{}", 0, "expected glTF 2.0, got none"},
+        {"{'asset':{'version':'2.0'},'nodes':[{}]}", 0, "expected a mesh of triangles, got none"},
+        {HEAD "," MESH "}", 0, "attributes.POSITION: expected an accessor, got none"},
+        {HEAD "," MESH "," VIEW ACCESSOR("'bufferView':0,", "4", "VEC3", "") "]}", 36,
+         "accessors[0]: expected data within the file"},
+        {HEAD "," MESH "," VIEW ACCESSOR("'bufferView':0,", "3", "VEC3", "") "]}", 36,
+         "accessors[0]: expected finite numbers, got NaN"},
+        {HEAD "," MESH "," VIEW ACCESSOR("'bufferView':7,", "3", "VEC2", "") "]}", 36, "accessors[0]: expected "},
+        {HEAD "," SOFT ",'accessors':[" ACCESSOR("", "100000000", "VEC3", "") "]}", 0,
+         ".attributes.POSITION: expected positions that are in the file, got none"},
+        {HEAD "," SOFT "," VIEW ACCESSOR(
+             "", "1000000", "VEC3",
+             ",'sparse':{'count':1,'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':0}}") "]}",
+         36, "vertices in a file of this size, got 1000000"},
+        // numbers that are none do not make room for the others smaller
+        {HEAD "," VIEW ACCESSOR("'bufferView':0,", "1", "VEC3", "") "," ACCESSOR(
+             "'bufferView':0,", "1000000000000000000", "VEC3",
+             "") "],'meshes':[{'primitives':[{'attributes':{'POSITION':0}},{'attributes':{'POSITION':1}}]}]}",
+         36, "attributes.POSITION: expected an accessor, got none"},
+    };
+    const float bin[9] = {0, 0, 0, 1, 0, 0, 0, NAN, 0};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_refused(glb(rows[i].json, bin, rows[i].bytes), rows[i].says);
     assert_refused("/nowhere.glb", "/nowhere.glb: cannot be opened");
     assert_refused(temporary_file("text.glb", "{\"asset\": {\"version\": \"2.0\"}}", 29),
                    "expected something to show, got no nodes");
-    assert_refused(glb("{", bin, 0), "JSON, line 1");
-    assert_refused(glb("{}", bin, 0), "expected glTF 2.0, got none");
-    assert_refused(glb("{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}]}", bin, 0),
-                   "expected a mesh of triangles, got none");
-    assert_refused(glb(HEAD "," MESH "}", bin, 0), "attributes.POSITION: expected an accessor, got none");
-    assert_refused(glb(HEAD "," MESH "," VIEW
-                            ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":"
-                            "\"VEC3\"}]}",
-                       bin, sizeof bin),
-                   "accessors[0]: expected data within the file");
-    assert_refused(glb(HEAD "," MESH "," VIEW
-                            ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
-                            "\"VEC3\"}]}",
-                       bin, sizeof bin),
-                   "accessors[0]: expected finite numbers, got NaN");
-    assert_refused(glb(HEAD "," MESH "," VIEW
-                            ",\"accessors\":[{\"bufferView\":7,\"componentType\":5126,\"count\":3,\"type\":"
-                            "\"VEC2\"}]}",
-                       bin, sizeof bin),
-                   "accessors[0]: expected ");
-    assert_refused(glb(HEAD
-                       ",\"accessors\":[{\"componentType\":5126,\"count\":100000000,\"type\":\"VEC3\"}],\"meshes\":["
-                       "{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"targetNames\":["
-                       "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
-                       bin, 0),
-                   ".attributes.POSITION: expected positions that are in the file, got none");
-    assert_refused(
-        glb(HEAD "," VIEW ",\"accessors\":[{\"componentType\":5126,\"count\":1000000,\"type\":\"VEC3\",\"sparse\":{"
-                 "\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}],"
-                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"targetNames\":["
-                 "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
-            bin, 36),
-        "vertices in a file of this size, got 1000000");
-    bin[7] = 0; // numbers that are none do not make room for the others smaller
-    assert_refused(
-        glb(HEAD "," VIEW ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
-                 "{\"bufferView\":0,\"componentType\":5126,\"count\":1000000000000000000,\"type\":\"VEC3\"}],"
-                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}},{\"attributes\":{\"POSITION\":"
-                 "1}}]}]}",
-            bin, sizeof bin),
-        "attributes.POSITION: expected an accessor, got none");
     struct character c;
     struct error error;
     make_character(&c);
