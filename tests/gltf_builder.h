@@ -99,6 +99,13 @@ static inline const char *builder_json(struct builder *b, const char *members)
     return quote(b->json);
 }
 
+/// Writes the file; returns its path.
+static inline const char *write_built(struct builder *b, const char *name, const char *members)
+{
+    const char *text = builder_json(b, members);
+    return temporary_file(name, text, strlen(text));
+}
+
 static inline void read_text(const char *text, struct gltf *gltf)
 {
     assert_done(gltf_read(temporary_file("model.gltf", text, strlen(text)), gltf, &error));

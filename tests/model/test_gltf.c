@@ -125,17 +125,18 @@ TEST(files_are_read)
 GLTF_TEST(a_surface_has_the_meshes_of_all_nodes)
 {
     add_all(b);
-    const char *text =
-        builder_json(b, "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{},{'mesh':0},"
-                        "{'children':[3]},{'mesh':0,'translation':[0,0,5]},{}],'scenes':[{'nodes':[0,1,2,4]}]");
     struct surface surface;
-    assert_done(surface_read(temporary_file("nodes.gltf", text, strlen(text)), &surface, &error));
+    const char *path =
+        write_built(b, "nodes.gltf",
+                    "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{},{'mesh':0},"
+                    "{'children':[3]},{'mesh':0,'translation':[0,0,5]},{}],'scenes':[{'nodes':[0,1,2,4]}]");
+    assert_done(surface_read(path, &surface, &error));
     assert_int_equal(surface.vertex_count, 6);
     assert_int_equal(surface.index_count, 6);
     assert_near(surface.position[5][2], 5, 0);
     surface_free(&surface);
-    text = builder_json(b, "'meshes':[{'primitives':[" REPEATS("", "5", "4") "]}]," ONE_NODE);
-    assert_refusal(surface_read(temporary_file("flat.gltf", text, strlen(text)), &surface, &error), "got none");
+    path = write_built(b, "flat.gltf", "'meshes':[{'primitives':[" REPEATS("", "5", "4") "]}]," ONE_NODE);
+    assert_refusal(surface_read(path, &surface, &error), "got none");
 }
 
 /// 16 by 16 pixels of 128.

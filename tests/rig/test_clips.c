@@ -44,10 +44,9 @@ static size_t add_action(struct builder *b, const struct action *action, char *j
 /// A file of an arm, a hand and a finger, with these clips.
 static const char *write_actions(const struct action *from, int count)
 {
-    static const float position[3][3] = {{0, 0, 0}, {0, 1, 0}, {0.1f, 0, 0}};
     struct builder b = {0};
     char json[4096], *end = json;
-    add_data(&b, FLOAT, "VEC3", 3, position, sizeof position);
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 0, 1, 0, 0.1f, 0, 0);
     end += sprintf(end, "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'scenes':[{'nodes':[0]}],'nodes':["
                         "{'name':'arm','mesh':0,'children':[1]},{'name':'hand','translation':[0,1,0],'children':[2]},"
                         "{'name':'finger','translation':[0,0.5,0]}],'animations':[");
@@ -56,8 +55,7 @@ static const char *write_actions(const struct action *from, int count)
         end += add_action(&b, &from[a], end);
     }
     strcpy(end, "]");
-    const char *text = builder_json(&b, json);
-    return temporary_file("actions.gltf", text, strlen(text));
+    return write_built(&b, "actions.gltf", json);
 }
 
 static void add_chain(struct opened *opened)
@@ -195,8 +193,7 @@ static struct document *scene_of_keys(double first, double step, int count)
             "'nodes':[{'name':'it'}],'animations':[{'name':'Hit','samplers':[{'input':%d,'output':%d}],'channels':[{"
             "'sampler':0,'target':{'node':0,'path':'translation'}}]}]",
             input, output);
-    const char *text = builder_json(b, json);
-    assert_done(document = import_scene(temporary_file("keys.gltf", text, strlen(text)), &error));
+    assert_done(document = import_scene(write_built(b, "keys.gltf", json), &error));
     free(b);
     free(times);
     free(places);
@@ -305,11 +302,10 @@ static int add_gait(struct builder *b, const struct gait_case *of, int node, cha
 
 static const char *write_gait(const struct gait_case *of)
 {
-    static const float position[3][3] = {{0, 0, 0}, {0, 1, 0}, {0.1f, 0, 0}};
     static struct builder b;
     char samplers[1024], channels[1024], json[4096], *sampler = samplers, *channel = channels;
     b = (struct builder){0};
-    add_data(&b, FLOAT, "VEC3", 3, position, sizeof position);
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 0, 1, 0, 0.1f, 0, 0);
     for (int node = 0; node < (of->gait == DOOR ? 1 : 4); node++) add_gait(&b, of, node, &sampler, &channel);
     sprintf(json,
             "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'scenes':[{'nodes':[0]}],'nodes':[{'name':"
@@ -317,8 +313,7 @@ static const char *write_gait(const struct gait_case *of)
             "0.3],'children':[4]},{'name':'tip','translation':[0,0,-0.3]}],"
             "'animations':[{'name':'gait','samplers':[%s],'channels':[%s]}]",
             samplers, channels);
-    const char *text = builder_json(&b, json);
-    return temporary_file("gait.gltf", text, strlen(text));
+    return write_built(&b, "gait.gltf", json);
 }
 
 /// A clip loops if its pose ends as it begins, wherever the character is by then. Its scene is a whole round, and what follows it does not
@@ -381,52 +376,41 @@ enum { THEIR_SAMPLERS = 8, HAND_SAMPLER = 5 };
 
 /// A clip with all that others write: steps, cubics, sparse and normalised numbers, pointers, channels without a node, extras; with keys between
 /// frames, beginning at 0.51 s. Node 1 and 2 are a chain, node 4 has a matrix.
-static const char *write_theirs(char json[1 << 14])
+static const char *write_theirs(char json[1 << 16])
 {
-    static struct builder b;
-    static const float times[5] = {0.51f, 0.7f, 1, 1.02f, 1.51f}, ends[2] = {0.51f, 1.51f}, middle[2] = {0.8f, 1.2f};
-    static const float steps[5][3] = {{1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {2, 1, 1}, {1, 1, 1}};
-    static const float turns[5][4] = {
-        {0, 0, 0, 1}, {0.1f, 0, 0, 0.995f}, {0, 0.2f, 0, 0.98f}, {0.6f, 0, 0, 0.8f}, {0, 0, 0, 1}};
-    static const short halves[2][4] = {{0, 0, 0, 32767}, {0, 23170, 0, 23170}};
-    static const float cubic[6][3] = {{0}, {1, 2, 3}, {4, 0, -2}, {0, 5, 1}, {2, 2, 2}, {0}};
-    static const unsigned char at[4] = {1};
-    static const float value[3] = {7, 8, 9};
-    char members[4096], sparse[256];
-    b = (struct builder){0};
-    const int t5 = add_data(&b, FLOAT, "SCALAR", 5, times, sizeof times),
-              t2 = add_data(&b, FLOAT, "SCALAR", 2, ends, sizeof ends);
-    const int tm = add_data(&b, FLOAT, "SCALAR", 2, middle, sizeof middle);
-    const int step = add_data(&b, FLOAT, "VEC3", 5, steps, sizeof steps),
-              turn = add_data(&b, FLOAT, "VEC4", 5, turns, sizeof turns);
-    char view[64];
-    snprintf(view, sizeof view, ",'normalized':true,'bufferView':%d", add_view(&b, halves, sizeof halves, 0));
-    const int half = add_accessor(&b, SHORT, "VEC4", 2, view),
-              cube = add_data(&b, FLOAT, "VEC3", 6, cubic, sizeof cubic);
-    const int index = add_view(&b, at, 1, 0), thing = add_view(&b, value, sizeof value, 0);
+    struct builder b = {0};
+    char sparse[256];
+    ADD(&b, FLOAT, float, 1, 0.51f, 0.7f, 1, 1.02f, 1.51f);
+    ADD(&b, FLOAT, float, 1, 0.51f, 1.51f);
+    ADD(&b, FLOAT, float, 1, 0.8f, 1.2f);
+    ADD(&b, FLOAT, float, 3, 1, 1, 1, 0, 0, 0, 1, 1, 1, 2, 1, 1, 1, 1, 1);
+    ADD(&b, FLOAT, float, 4, 0, 0, 0, 1, 0.1f, 0, 0, 0.995f, 0, 0.2f, 0, 0.98f, 0.6f, 0, 0, 0.8f, 0, 0, 0, 1);
+    ADD_NORMALISED(&b, SHORT, short, 4, 0, 0, 0, 32767, 0, 23170, 0, 23170);
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 1, 2, 3, 4, 0, -2, 0, 5, 1, 2, 2, 2, 0, 0, 0);
+    const int index = add_view(&b, (const unsigned char[]){1, 0, 0, 0}, 1, 0);
     snprintf(sparse, sizeof sparse,
              ",'sparse':{'count':1,'indices':{'bufferView':%d,'componentType':5121},'values':{'bufferView':%d}}",
-             index, thing);
-    const int thin = add_accessor(&b, FLOAT, "VEC3", 2, sparse);
-    snprintf(
-        members, sizeof members,
-        "'scenes':[{'nodes':[0,3,4]}],'materials':[{'name':'glow'}],'extensionsUsed':['KHR_animation_pointer','EXT_"
-        "none'],'nodes':[{'name':'arm','children':[1]},{'name':'hand','translation':[0,1,0],'children':[2]},{'name':"
-        "'finger','translation':[0,0.5,0]},{'name':'prop'},{'name':'lamp','matrix':[1,0,0,0,0,0,-1,0,0,1,0,0,3,0,"
-        "0,1]}],"
-        "'animations':[{'extras':{'event':'step@0.3'},'name':'Act','extensions':{'EXT_none':{'k':[1.5]}},'samplers':["
-        "{'input':%d,'output':%d,'interpolation':'STEP','extras':5},{'input':%d,'output':%d},{'input':%d,'output':%d,"
-        "'interpolation':'CUBICSPLINE'},{'input':%d,'output':%d},{'input':%d,'output':%d},{'input':%d,'output':%d},{"
-        "'input':%d,'output':%d},{'input':%d,'output':%d,'interpolation':'CUBICSPLINE'}],'channels':[{'sampler':0,"
-        "'target':{'node':3,'path':'scale'}},{'sampler':1,'target':{'node':3,'path':'rotation'}},{'sampler':2,"
-        "'target'"
-        ":{'node':0,'path':'translation'}},{'sampler':3,'target':{'node':3,'path':'translation'}},{'sampler':4,"
-        "'target':{'path':'pointer','extensions':{'KHR_animation_pointer':{'pointer':'/materials/0/"
-        "emissiveFactor'}}}},{'sampler':5,'extras':1,'target':{'node':1,'path':'rotation'}},{'sampler':6,'target':{"
-        "'path':'translation'}},{'sampler':7,'target':{'node':4,'path':'translation'}}]}]",
-        t5, step, t2, half, t2, cube, t2, thin, t5, step, t5, turn, tm, thin, tm, cube);
-    snprintf(json, 1 << 14, "%s", builder_json(&b, members));
-    return temporary_file("theirs.gltf", json, strlen(json));
+             index, add_view(&b, (const float[]){7, 8, 9}, 3 * sizeof(float), 0));
+    assert_int_equal(add_accessor(&b, FLOAT, "VEC3", 2, sparse), 7);
+    const char *file = write_built(
+        &b, "theirs.gltf",
+        "'scenes':[{'nodes':[0,3,4]}],'materials':[{'name':'glow'}],"
+        "'extensionsUsed':['KHR_animation_pointer','EXT_none'],'nodes':[{'name':'arm','children':[1]},"
+        "{'name':'hand','translation':[0,1,0],'children':[2]},{'name':'finger','translation':[0,0.5,0]},"
+        "{'name':'prop'},{'name':'lamp','matrix':[1,0,0,0,0,0,-1,0,0,1,0,0,3,0,0,1]}],'animations':[{"
+        "'extras':{'event':'step@0.3'},'name':'Act','extensions':{'EXT_none':{'k':[1.5]}},'samplers':["
+        "{'input':0,'output':3,'interpolation':'STEP','extras':5},{'input':1,'output':5},"
+        "{'input':1,'output':6,'interpolation':'CUBICSPLINE'},{'input':1,'output':7},{'input':0,'output':3},"
+        "{'input':0,'output':4},{'input':2,'output':7},{'input':2,'output':6,'interpolation':'CUBICSPLINE'}],"
+        "'channels':[{'sampler':0,'target':{'node':3,'path':'scale'}},"
+        "{'sampler':1,'target':{'node':3,'path':'rotation'}},{'sampler':2,'target':{'node':0,'path':'translation'}},"
+        "{'sampler':3,'target':{'node':3,'path':'translation'}},{'sampler':4,'target':{'path':'pointer',"
+        "'extensions':{'KHR_animation_pointer':{'pointer':'/materials/0/emissiveFactor'}}}},"
+        "{'sampler':5,'extras':1,'target':{'node':1,'path':'rotation'}},{'sampler':6,'target':{'path':'translation'}}"
+        ","
+        "{'sampler':7,'target':{'node':4,'path':'translation'}}]}]");
+    strcpy(json, b.json);
+    return file;
 }
 
 /// Exports a file with a chain that nothing bends, over some frames (0, 0: all).
@@ -465,7 +449,7 @@ TEST(exports_edit_the_clip_of_the_file)
 {
     static const char *const names[] = {NULL, "Else"};
     static const char *const arrays[] = {"accessors", "bufferViews", "buffers", "materials"};
-    char text[1 << 14];
+    static char text[1 << 16];
     for (int n = 0; n < 2; n++) {
         const char *file = write_theirs(text);
         json_t *before = json_loads(text, 0, NULL);
@@ -495,23 +479,16 @@ TEST(exports_edit_the_clip_of_the_file)
 /// A chain's bone that steps still steps, also at the end of a round.
 TEST(a_bone_of_a_chain_keeps_its_steps)
 {
-    static const float times[4] = {0, 0.21f, 0.77f, 1};
-    static const float turns[4][4] = {{0, 0, 0, 1}, {0.6f, 0, 0, 0.8f}, {0, 0.6f, 0, 0.8f}, {0, 0, 0, 1}};
-    static struct builder b;
     struct gltf before, after;
     struct gltf_pose was, is;
-    char json[1024];
-    b = (struct builder){0};
-    const int input = add_data(&b, FLOAT, "SCALAR", 4, times, sizeof times);
-    const int output = add_data(&b, FLOAT, "VEC4", 4, turns, sizeof turns);
-    snprintf(
-        json, sizeof json,
-        "'nodes':[{'name':'arm','children':[1]},{'name':'hand','translation':[0,1,0],'children':[2]},{'name':'finger'"
-        ",'translation':[0,1,0]}],'animations':[{'name':'Act','samplers':[{'input':%"
-        "d,"
-        "'output':%d,'interpolation':'STEP'}],'channels':[{'sampler':0,'target':{'node':1,'path':'rotation'}}]}]",
-        input, output);
-    const char *text = builder_json(&b, json), *file = temporary_file("steps.gltf", text, strlen(text));
+    struct builder b = {0};
+    ADD(&b, FLOAT, float, 1, 0, 0.21f, 0.77f, 1);
+    ADD(&b, FLOAT, float, 4, 0, 0, 0, 1, 0.6f, 0, 0, 0.8f, 0, 0.6f, 0, 0.8f, 0, 0, 0, 1);
+    const char *file = write_built(
+        &b, "steps.gltf",
+        "'nodes':[{'name':'arm','children':[1]},{'name':'hand','translation':[0,1,0],'children':[2]},"
+        "{'name':'finger','translation':[0,1,0]}],'animations':[{'name':'Act','samplers':[{'input':0,'output':1,"
+        "'interpolation':'STEP'}],'channels':[{'sampler':0,'target':{'node':1,'path':'rotation'}}]}]");
     for (int cubic = 0; cubic < 2; cubic++) {
         assert_done(gltf_read(file, &before, &error));
         assert_done(gltf_read(export_plain(file, 0, 0, (struct export_options){.is_cubic = cubic}, "out.glb"), &after,
@@ -539,7 +516,7 @@ TEST(exports_hold_the_clip_over_any_frames)
         double length;
     } cases[] = {
         {0, 0, 0.51, 1}, {51, 351, 0.51, 3}, {73, 142, 0.73, 0.69}, {93, 231, 0.93, 1.38}, {22, 160, 0.51, 1.38}};
-    char text[1 << 14];
+    static char text[1 << 16];
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         struct gltf before, after;
         struct gltf_pose was, is;

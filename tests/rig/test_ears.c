@@ -44,17 +44,15 @@ static int print_ear(const struct pair *pair, const struct ear *ear, int side, c
 static void open_pair(struct pair *pair, const struct ear *ear, bool follows)
 {
     static char text[8192];
-    const float triangle[3][3] = {{0, 0, 0}, {0.1f, 0, 0}, {0, 1, 0}};
     struct builder b = {0};
-    add_data(&b, FLOAT, "VEC3", 3, triangle, sizeof triangle);
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 0.1f, 0, 0, 0, 1, 0);
     char *end = text + sprintf(text,
                                "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'scenes':[{'nodes':[0,1]}],"
                                "'nodes':[{'mesh':0},{'name':'head','children':[2,%d]}",
                                2 + BONES);
     for (int side = 0; side < 2; side++) end += print_ear(pair, ear, side, end);
     sprintf(end, "]");
-    const char *json = builder_json(&b, text);
-    assert_done(opened_read(&pair->opened, temporary_file("ears.gltf", json, strlen(json)), &error));
+    assert_done(opened_read(&pair->opened, write_built(&b, "ears.gltf", text), &error));
     for (int side = 0; side < 2; side++) {
         const struct chain_wish wish = {.from = side ? "Ear1.R" : "Ear1.L", .follows = follows};
         assert_done(chain_make(pair->opened.document, pair->opened.models, &wish, &pair->rig[side], &error));
