@@ -3,13 +3,9 @@
 #ifndef TESTS_BEAST_H
 #define TESTS_BEAST_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
+#include "gltf_builder.h"
 
-enum { BEAST_TAIL = 8, BEAST_BONES = 17 + BEAST_TAIL, BEAST_KEYS = 5, BEAST_CLIPS = 2 };
+enum { BEAST_TAIL = 8, BEAST_BONES = 17 + BEAST_TAIL };
 
 struct beast_bone {
     char name[16];
@@ -77,138 +73,63 @@ static inline void beast_box(const struct beast_bone *bones, int bone, float cor
     for (int i = 0; i < 36; i++) index[i] = (uint16_t)(faces[i] + 8 * bone);
 }
 
-/// The binary part, in the order of the buffer views.
-struct beast_binary {
-    float inverse_bind[BEAST_BONES][16];
-    float position[8 * BEAST_BONES][3];
-    uint8_t joints[8 * BEAST_BONES][4];
-    float weights[8 * BEAST_BONES][4];
-    uint16_t index[36 * BEAST_BONES];
-    float times[BEAST_KEYS];
-    float hips[BEAST_KEYS][4], head[BEAST_KEYS][4]; ///< rotations, alternating about y and x
-    float bob[BEAST_KEYS][3];                       ///< translations of the hips
-};
-
-static inline void beast_fill(const struct beast_bone *bones, struct beast_binary *b)
-{
-    static const float swing[BEAST_KEYS] = {0, 0.12f, 0, -0.12f, 0}, lift[BEAST_KEYS] = {0, 0.02f, 0, 0.02f, 0};
-    memset(b, 0, sizeof *b);
-    for (int n = 0; n < BEAST_BONES; n++) {
-        float at[3];
-        beast_place(bones, n, at);
-        beast_box(bones, n, b->position + (ptrdiff_t)8 * n, b->index + (ptrdiff_t)36 * n);
-        for (int k = 0; k < 4; k++) b->inverse_bind[n][5 * k] = 1;
-        for (int k = 0; k < 3; k++) b->inverse_bind[n][12 + k] = -at[k];
-        for (int c = 0; c < 8; c++) b->joints[8 * n + c][0] = (uint8_t)n;
-        for (int c = 0; c < 8; c++) b->weights[8 * n + c][0] = 1;
-    }
-    for (int k = 0; k < BEAST_KEYS; k++) { // for such small half angles the sine is the angle, up to normalisation
-        const float w = 1 - swing[k] * swing[k] / 2;
-        b->times[k] = 0.25f * (float)k;
-        memcpy(b->hips[k], (float[4]){0, swing[k], 0, w}, sizeof b->hips[k]);
-        memcpy(b->head[k], (float[4]){swing[k], 0, 0, w}, sizeof b->head[k]);
-        memcpy(b->bob[k], (float[3]){0, bones[0].at[1] + lift[k], bones[0].at[2]}, sizeof b->bob[k]);
-    }
-}
-
-static inline void beast_nodes(FILE *out, const struct beast_bone *bones)
-{
-    fprintf(out, "\"nodes\":[");
-    for (int n = 0; n < BEAST_BONES; n++) {
-        const float *at = bones[n].at;
-        int children = 0;
-        fprintf(out, "{\"name\":\"%s\",\"translation\":[%g,%g,%g]", bones[n].name, (double)at[0], (double)at[1],
-                (double)at[2]);
-        for (int c = 0; c < BEAST_BONES; c++) {
-            if (bones[c].parent == n) fprintf(out, "%s%d", children++ == 0 ? ",\"children\":[" : ",", c);
-        }
-        fprintf(out, "%s},", children > 0 ? "]" : "");
-    }
-    fprintf(out, "{\"name\":\"skin\",\"mesh\":0,\"skin\":0}],\"skins\":[{\"inverseBindMatrices\":0,\"joints\":[");
-    for (int n = 0; n < BEAST_BONES; n++) fprintf(out, "%s%d", n == 0 ? "" : ",", n);
-    fprintf(out, "]}],");
-}
-
-/// A buffer view and an accessor for each member of the binary part.
-static inline void beast_accessors(FILE *out)
-{
-#define BEAST_PART(member) offsetof(struct beast_binary, member), sizeof((struct beast_binary *)0)->member
-    static const struct {
-        size_t from, bytes;
-        int component, count;
-        const char *type, *more;
-    } parts[] = {
-        {BEAST_PART(inverse_bind), 5126, BEAST_BONES, "MAT4", ""},
-        {BEAST_PART(position), 5126, 8 * BEAST_BONES, "VEC3", ",\"min\":[-1,0,-2],\"max\":[1,2,2]"},
-        {BEAST_PART(joints), 5121, 8 * BEAST_BONES, "VEC4", ""},
-        {BEAST_PART(weights), 5126, 8 * BEAST_BONES, "VEC4", ""},
-        {BEAST_PART(index), 5123, 36 * BEAST_BONES, "SCALAR", ""},
-        {BEAST_PART(times), 5126, BEAST_KEYS, "SCALAR", ",\"min\":[0],\"max\":[1]"},
-        {BEAST_PART(hips), 5126, BEAST_KEYS, "VEC4", ""},
-        {BEAST_PART(head), 5126, BEAST_KEYS, "VEC4", ""},
-        {BEAST_PART(bob), 5126, BEAST_KEYS, "VEC3", ""},
-    };
-#undef BEAST_PART
-    const size_t count = sizeof parts / sizeof parts[0];
-    fprintf(out, "\"bufferViews\":[");
-    for (size_t i = 0; i < count; i++)
-        fprintf(out, "%s{\"buffer\":0,\"byteOffset\":%zu,\"byteLength\":%zu}", i == 0 ? "" : ",", parts[i].from,
-                parts[i].bytes);
-    fprintf(out, "],\"accessors\":[");
-    for (size_t i = 0; i < count; i++)
-        fprintf(out, "%s{\"bufferView\":%zu,\"componentType\":%d,\"count\":%d,\"type\":\"%s\"%s}", i == 0 ? "" : ",",
-                i, parts[i].component, parts[i].count, parts[i].type, parts[i].more);
-    fprintf(out, "],");
-}
-
-static inline void beast_json(FILE *out, const struct beast_bone *bones)
-{
-    fprintf(out, "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,%d]}],", BEAST_BONES);
-    beast_nodes(out, bones);
-    beast_accessors(out);
-    fprintf(out,
-            "\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.55,0.42,0.3,1]}}],"
-            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":1,\"JOINTS_0\":2,\"WEIGHTS_0\":3},"
-            "\"indices\":4,\"material\":0}]}],"
-            "\"animations\":[{\"name\":\"Walk\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":"
-            "\"rotation\"}},{\"sampler\":1,\"target\":{\"node\":0,\"path\":\"translation\"}}],\"samplers\":["
-            "{\"input\":5,\"output\":6},{\"input\":5,\"output\":8}]},"
-            "{\"name\":\"Nod\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":3,\"path\":\"rotation\"}}],"
-            "\"samplers\":[{\"input\":5,\"output\":7}]}],"
-            "\"buffers\":[{\"byteLength\":%zu}]}",
-            sizeof(struct beast_binary));
-}
-
-static inline void beast_word(FILE *out, size_t word)
-{
-    for (int i = 0; i < 4; i++) fputc((int)(word >> (8 * i) & 0xFF), out);
-}
-
 /// Returns false if the file cannot be written.
 static inline bool beast_write(const char *path)
 {
-    static struct beast_binary binary;
-    static char json[1 << 15];
+    static struct builder b;
+    static char members[1 << 13], glb[1 << 16];
+    static float inverse[BEAST_BONES][16], position[8 * BEAST_BONES][3], weights[8 * BEAST_BONES][4];
+    static uint8_t joints[8 * BEAST_BONES][4];
+    static uint16_t index[36 * BEAST_BONES];
     struct beast_bone bones[BEAST_BONES];
+    char *end = members, list[128] = "";
+    b = (struct builder){0};
     beast_bones(bones);
-    beast_fill(bones, &binary);
-    memset(json, ' ', sizeof json);
-    FILE *text = fmemopen(json, sizeof json, "w"), *out = fopen(path, "wb");
-    if (!text || !out) return false;
-    beast_json(text, bones);
-    const size_t used = (size_t)ftell(text), length = (used + 3) / 4 * 4;
-    fclose(text);
-    memset(json + used, ' ', length - used);
-    fwrite("glTF", 1, 4, out);
-    beast_word(out, 2);
-    beast_word(out, 12 + 8 + length + 8 + sizeof binary);
-    beast_word(out, length);
-    fwrite("JSON", 1, 4, out);
-    fwrite(json, 1, length, out);
-    beast_word(out, sizeof binary);
-    fwrite("BIN", 1, 4, out);
-    fwrite(&binary, 1, sizeof binary, out);
-    return fclose(out) == 0;
+    end += sprintf(end, "'scene':0,'scenes':[{'nodes':[0,%d]}],'nodes':[", BEAST_BONES);
+    for (int n = 0; n < BEAST_BONES; n++) {
+        const float *own = bones[n].at;
+        int children = 0;
+        float at[3];
+        beast_place(bones, n, at);
+        beast_box(bones, n, position + (ptrdiff_t)8 * n, index + (ptrdiff_t)36 * n);
+        for (int k = 0; k < 4; k++) inverse[n][5 * k] = 1;
+        for (int k = 0; k < 3; k++) inverse[n][12 + k] = -at[k];
+        for (int c = 8 * n; c < 8 * n + 8; c++) joints[c][0] = (uint8_t)n, weights[c][0] = 1;
+        end += sprintf(end, "{'name':'%s','translation':[%g,%g,%g]", bones[n].name, (double)own[0], (double)own[1],
+                       (double)own[2]);
+        for (int c = 0; c < BEAST_BONES; c++) {
+            if (bones[c].parent == n) end += sprintf(end, "%s%d", children++ == 0 ? ",'children':[" : ",", c);
+        }
+        end += sprintf(end, "%s},", children > 0 ? "]" : "");
+        sprintf(list + strlen(list), "%s%d", n == 0 ? "" : ",", n);
+    }
+    add_data(&b, FLOAT, "MAT4", BEAST_BONES, inverse, sizeof inverse);
+    add_data(&b, FLOAT, "VEC3", 8 * BEAST_BONES, position, sizeof position);
+    add_data(&b, UBYTE, "VEC4", 8 * BEAST_BONES, joints, sizeof joints);
+    add_data(&b, FLOAT, "VEC4", 8 * BEAST_BONES, weights, sizeof weights);
+    add_data(&b, USHORT, "SCALAR", 36 * BEAST_BONES, index, sizeof index);
+    // The hips alternate about y and bob, the head alternates about x; for such small half angles the sine is the angle.
+    ADD(&b, FLOAT, float, 1, 0, 0.25f, 0.5f, 0.75f, 1);
+    ADD(&b, FLOAT, float, 4, 0, 0, 0, 1, 0, 0.12f, 0, 0.9928f, 0, 0, 0, 1, 0, -0.12f, 0, 0.9928f, 0, 0, 0, 1);
+    ADD(&b, FLOAT, float, 4, 0, 0, 0, 1, 0.12f, 0, 0, 0.9928f, 0, 0, 0, 1, -0.12f, 0, 0, 0.9928f, 0, 0, 0, 1);
+    ADD(&b, FLOAT, float, 3, 0, 0.55f, -0.3f, 0, 0.57f, -0.3f, 0, 0.55f, -0.3f, 0, 0.57f, -0.3f, 0, 0.55f, -0.3f);
+    sprintf(
+        end,
+        "{'name':'skin','mesh':0,'skin':0}],'skins':[{'inverseBindMatrices':0,'joints':[%s]}],"
+        "'materials':[{'doubleSided':true,'pbrMetallicRoughness':{'baseColorFactor':[0.55,0.42,0.3,1]}}],"
+        "'meshes':[{'primitives':[{'attributes':{'POSITION':1,'JOINTS_0':2,'WEIGHTS_0':3},'indices':4,"
+        "'material':0}]}],'animations':[{'name':'Walk','channels':[{'sampler':0,'target':{'node':0,"
+        "'path':'rotation'}},{'sampler':1,'target':{'node':0,'path':'translation'}}],'samplers':["
+        "{'input':5,'output':6},{'input':5,'output':8}]},{'name':'Nod','channels':[{'sampler':0,'target':{'node':3,"
+        "'path':'rotation'}}],'samplers':[{'input':5,'output':7}]}]",
+        list);
+    snprintf(b.json, sizeof b.json,
+             "{'asset':{'version':'2.0'},'buffers':[{'byteLength':%zu}],'bufferViews':[%s],'accessors':[%s],%s}",
+             b.size, b.views, b.accessors, members);
+    const size_t size = put_glb(glb, b.json, b.bytes, b.size);
+    FILE *out = fopen(path, "wb");
+    const bool done = out && fwrite(glb, 1, size, out) == size;
+    return out && fclose(out) == 0 && done;
 }
 
 #endif

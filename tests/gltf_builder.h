@@ -106,6 +106,19 @@ static inline const char *write_built(struct builder *b, const char *name, const
     return temporary_file(name, text, strlen(text));
 }
 
+/// A .glb of a JSON text, with ' for ", and bytes; returns its size.
+static inline size_t put_glb(char *out, const char *json, const void *bytes, size_t size)
+{
+    const uint32_t length = ((uint32_t)strlen(json) + 3) / 4 * 4, room = (uint32_t)size;
+    const uint32_t header[5] = {0x46546C67, 2, 28 + length + room, length, 0x4E4F534A}, chunk[2] = {room, 0x004E4942};
+    memcpy(out, header, sizeof header);
+    sprintf(out + sizeof header, "%-*s", (int)length, json);
+    quote(out + sizeof header);
+    memcpy(out + 20 + length, chunk, sizeof chunk);
+    memcpy(out + 28 + length, bytes, size);
+    return header[2];
+}
+
 static inline void read_text(const char *text, struct gltf *gltf)
 {
     assert_done(gltf_read(temporary_file("model.gltf", text, strlen(text)), gltf, &error));

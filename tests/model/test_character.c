@@ -87,14 +87,7 @@ TEST_OF(struct character, c, make_character(c), character_free(c), normals_point
 static const char *glb(const char *json, const void *bin, size_t bin_size)
 {
     static char data[8192];
-    uint32_t length = (uint32_t)strlen(json), size = (uint32_t)bin_size;
-    const uint32_t header[5] = {0x46546C67, 2, 20 + length + 8 + size, length, 0x4E4F534A};
-    const uint32_t chunk[2] = {size, 0x004E4942};
-    memcpy(data, header, sizeof header);
-    quote(strcpy(data + 20, json));
-    memcpy(data + 20 + length, chunk, sizeof chunk);
-    memcpy(data + 28 + length, bin, bin_size);
-    return temporary_file("other.glb", data, 28 + length + bin_size);
+    return temporary_file("other.glb", data, put_glb(data, json, bin, bin_size));
 }
 
 #define HEAD "{'asset':{'version':'2.0'},'buffers':[{}],'nodes':[{'mesh':0}]"

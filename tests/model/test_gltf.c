@@ -211,16 +211,11 @@ TEST(containers)
         "{'asset':{'version':'2.0'},'buffers':[{'byteLength':36%s}],'bufferViews':[{'buffer':0,'byteLength':36}],"
         "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}]," MESH("'POSITION':0") "}";
     const float triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    char text[1024];
-    unsigned char glb[2048];
+    char text[1024], glb[2048];
     struct gltf gltf[2];
-    uint32_t length = (uint32_t)snprintf(text, sizeof text, json, "");
-    const uint32_t header[5] = {0x46546C67, 2, 28 + length + 36, length, 0x4E4F534A}, chunk[2] = {36, 0x004E4942};
-    memcpy(glb, header, 20);
-    memcpy(glb + 20, quote(text), length);
-    memcpy(glb + 20 + length, chunk, 8);
-    memcpy(glb + 28 + length, triangle, 36);
-    assert_done(gltf_read(temporary_file("model.glb", glb, header[2]), &gltf[0], &error));
+    snprintf(text, sizeof text, json, "");
+    const size_t size = put_glb(glb, text, triangle, sizeof triangle);
+    assert_done(gltf_read(temporary_file("model.glb", glb, size), &gltf[0], &error));
     snprintf(text, sizeof text, json, ",'uri':'./some%20bytes.bin'");
     temporary_file("some bytes.bin", triangle, sizeof triangle);
     read_text(quote(text), &gltf[1]);

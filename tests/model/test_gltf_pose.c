@@ -53,7 +53,8 @@ static const struct gltf_row rows[] = {
      "'animations':[{'samplers':[{'input':11,'output':12}],'channels':[" CHANNEL("1", "weights", "0") "]}]",
      "morphs 0.5 0 0 1 posed ~0 ~0 ~0.5 ~1 ~0 ~1 ~0 ~1 ~1.5 node 1 posed ~10 ~0 ~1 ~11 ~0 ~2 ~10 ~1 ~3 "
      "turned ~1 ~0 ~0 ~1 ~0 ~0 ~1 ~0 ~0 clip 0 at 0.25 morphs 0.5 0 ~0.25 ~0.5 "
-     "posed ~10 ~0 ~0.75 ~11 ~0 ~1.5 ~10 ~1 ~2.25",
+     "posed ~10 ~0 ~0.75 ~11 ~0 ~1.5 ~10 ~1 ~2.25 at 0.75 morphs 0.5 0 ~0.75 ~-0.5 "
+     "posed ~10 ~0 ~0.25 ~11 ~0 ~0.5 ~10 ~1 ~0.75",
      NULL},
     // mirrored and stretched: normals stay across the surface, and look to where they did
     {"'meshes':[{'primitives':[{'attributes':{'POSITION':13,'NORMAL':14}}]}],'nodes':[{'mesh':0,'scale':[-3,1,1]}]",
