@@ -90,36 +90,33 @@ static const char *glb(const char *json, const void *bin, size_t bin_size)
     return temporary_file("other.glb", data, put_glb(data, json, bin, bin_size));
 }
 
-#define HEAD "{'asset':{'version':'2.0'},'buffers':[{}],'nodes':[{'mesh':0}]"
-
 /// What another exporter may write: interleaved positions and byte colours with alpha, short indices, two primitives, a
 /// target that is sparse and one that is left out, and other targets between ours.
 TEST(a_file_of_another_program)
 {
-    struct {
-        struct {
-            float position[3];
-            uint8_t color[4];
-        } vertices[3];
-        uint16_t indices[4];
-        float target[3];
-    } bin = {{{{0, 0, 0}, {255, 0, 51, 255}}, {{1, 0, 0}, {0, 0, 0, 255}}, {{0, 0, -1}, {0, 255, 0, 0}}},
-             {2, 1, 0, 1}, // three indices, then the place of the sparse element
-             {0.5f, 0, 2}};
-    const char *json =
-        "{'asset':{'version':'2.0'},'buffers':[{'byteLength':68}],'bufferViews':[{'buffer':0,'byteLength':48,"
-        "'byteStride':16},{'buffer':0,'byteOffset':48,'byteLength':8},{'buffer':0,'byteOffset':56,'byteLength':12}],"
-        "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':0,'byteOffset':12,"
-        "'componentType':5121,'normalized':true,'count':3,'type':'VEC4'},{'bufferView':1,'componentType':5123,'count'"
-        ":"
-        "3,'type':'SCALAR'},{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':1,'indices':{'bufferView'"
-        ":1,'byteOffset':6,'componentType':5123},'values':{'bufferView':2}}}],'nodes':[{'mesh':1}],'meshes':[{"
-        "'primitives':[{'attributes':{}}]},{'primitives':[{'attributes':{'POSITION':0,'COLOR_0':1},'indices':2,"
-        "'targets':[{},{'POSITION':3},{}]},{'attributes':{'POSITION':0},'targets':[{},{},{}]}],'extras':{"
-        "'targetNames'"
-        ":['up.re','up.im','smile']}}]}";
+    const struct {
+        float position[3];
+        uint8_t color[4];
+    } vertices[3] = {{{0, 0, 0}, {255, 0, 51, 255}}, {{1, 0, 0}, {0, 0, 0, 255}}, {{0, 0, -1}, {0, 255, 0, 0}}};
+    const uint16_t place = 1;
+    const float target[3] = {0.5f, 0, 2};
+    struct builder b = {0};
+    char sparse[256];
+    add_view(&b, vertices, sizeof vertices, sizeof *vertices);
+    add_accessor(&b, FLOAT, "VEC3", 3, ",'bufferView':0");
+    add_accessor(&b, UBYTE, "VEC4", 3, ",'bufferView':0,'byteOffset':12,'normalized':true");
+    ADD(&b, USHORT, uint16_t, 1, 2, 1, 0);
+    snprintf(sparse, sizeof sparse,
+             ",'sparse':{'count':1,'indices':{'bufferView':%d,'componentType':5123},'values':{'bufferView':%d}}",
+             add_view(&b, &place, sizeof place, 0), add_view(&b, target, sizeof target, 0));
+    add_accessor(&b, FLOAT, "VEC3", 3, sparse);
     struct character c;
-    read_good(glb(json, &bin, sizeof bin), &c);
+    read_good(write_built(&b, "other.gltf",
+                          "'nodes':[{'mesh':1}],'meshes':[{'primitives':[{'attributes':{}}]},{'primitives':[{"
+                          "'attributes':{'POSITION':0,'COLOR_0':1},'indices':2,'targets':[{},{'POSITION':3},{}]},"
+                          "{'attributes':{'POSITION':0},'targets':[{},{},{}]}],"
+                          "'extras':{'targetNames':['up.re','up.im','smile']}}]"),
+              &c);
     assert_int_equal(c.vertex_count, 6);
     assert_int_equal(c.coordinate_count, 1);
     const uint32_t indices[] = {2, 1, 0, 3, 4, 5};
@@ -139,14 +136,14 @@ TEST(a_file_of_another_program)
 /// A mesh whose node is scaled and mirrored, under a parent that turns it by a quarter about y and lifts it.
 TEST(a_mesh_stands_where_its_node_puts_it)
 {
-    const float bin[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
+    struct builder b = {0};
     struct character c;
-    read_good(glb("{'asset':{'version':'2.0'},'buffers':[{}],'bufferViews':[{'buffer':0,'byteLength':36}],'accessors'"
-                  ":[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'}],'nodes':[{'mesh':0,'scale':[-2,2,"
-                  "2]},{'children':[0],'translation':[0,5,0],'rotation':[0,0.7071067811865476,0,0.7071067811865476]}]"
-                  ",'meshes':[{'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':0},{}]}],'extras':{"
-                  "'targetNames':['a.re','a.im']}}]}",
-                  bin, sizeof bin),
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+    read_good(write_built(&b, "placed.gltf",
+                          "'nodes':[{'mesh':0,'scale':[-2,2,2]},{'children':[0],'translation':[0,5,0],"
+                          "'rotation':[0,0.7071067811865476,0,0.7071067811865476]}],'meshes':[{'primitives':[{"
+                          "'attributes':{'POSITION':0},'targets':[{'POSITION':0},{}]}],"
+                          "'extras':{'targetNames':['a.re','a.im']}}]"),
               &c);
     assert_near(c.position[1][1], 5, 1e-6);
     assert_near(c.position[1][2], 2, 1e-6); // x is mirrored to -2, which the quarter turn makes +2 in z
@@ -168,68 +165,62 @@ static void assert_refused(const char *path, const char *says)
 /// They have no area, and edges from a vertex to itself; what is left keeps its material.
 TEST(triangles_that_repeat_a_vertex_are_left_out)
 {
-    const struct {
-        float places[9];
-        uint16_t indices[6];
-    } bin = {{0, 0, 0, 1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, 1, 2}};
-    char json[1024];
+#define REPEATS(indices)                                                                                             \
+    "'nodes':[{'mesh':0}],'materials':[{'name':'red'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0},"       \
+    "'indices':" indices ",'material':0}]}]"
+    struct builder b = {0};
     struct character c;
-#define REPEATS                                                                                                      \
-    HEAD ",'bufferViews':[{'buffer':0,'byteLength':36},{'buffer':0,'byteOffset':36,'byteLength':12}],"               \
-         "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},{'bufferView':1,"               \
-         "'componentType':5123,'count':%d,'type':'SCALAR'}],'materials':[{'name':'red'}],'meshes':["                 \
-         "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]}"
-    snprintf(json, sizeof json, REPEATS, 6);
-    read_good(glb(json, &bin, sizeof bin), &c);
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+    ADD(&b, USHORT, uint16_t, 1, 0, 1, 0, 0, 1, 2);
+    ADD(&b, USHORT, uint16_t, 1, 0, 1, 0);
+    read_good(write_built(&b, "repeats.gltf", REPEATS("1")), &c);
     const uint32_t indices[] = {0, 1, 2};
     assert_int_equal(c.vertex_count, 3);
     assert_int_equal(c.index_count, 3);
     assert_memory_equal(c.indices, indices, sizeof indices);
     assert_int_equal(c.looks.material[0], 0);
     character_free(&c);
-    snprintf(json, sizeof json, REPEATS, 3);
-    assert_refusal(character_read(glb(json, &bin, sizeof bin), &c, &error),
+    assert_refused(write_built(&b, "repeats.gltf", REPEATS("2")),
                    "expected a mesh of triangles, got triangles without area");
 }
 
-#define MESH "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}]"
-#define SOFT                                                                                                         \
-    "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}],'extras':{'targetNames':['a.re','a.im','b.re','b.im']}" \
-    "}]"
-#define ACCESSOR(view, count, type, more) "{" view "'componentType':5126,'count':" count ",'type':'" type "'" more "}"
-#define VIEW "'bufferViews':[{'buffer':0,'byteLength':36}],'accessors':["
+#define SHOWS(more) "'nodes':[{'mesh':0}],'meshes':[{'primitives':[{'attributes':{'POSITION':" more
+#define PLAIN "}}]}]"
+#define SOFT "}}],'extras':{'targetNames':['a.re','a.im','b.re','b.im']}}]"
 
 TEST(bad_files_get_one_sentence)
 {
     static const struct {
-        const char *json;
-        size_t bytes; ///< of three vertices, one of them no number
-        const char *says;
+        const char *members, *says;
     } rows[] = {
-        {"{", 0, "JSON, line 1"},
-        {"{}", 0, "expected glTF 2.0, got none"},
-        {"{'asset':{'version':'2.0'},'nodes':[{}]}", 0, "expected a mesh of triangles, got none"},
-        {HEAD "," MESH "}", 0, "attributes.POSITION: expected an accessor, got none"},
-        {HEAD "," MESH "," VIEW ACCESSOR("'bufferView':0,", "4", "VEC3", "") "]}", 36,
-         "accessors[0]: expected data within the file"},
-        {HEAD "," MESH "," VIEW ACCESSOR("'bufferView':0,", "3", "VEC3", "") "]}", 36,
-         "accessors[0]: expected finite numbers, got NaN"},
-        {HEAD "," MESH "," VIEW ACCESSOR("'bufferView':7,", "3", "VEC2", "") "]}", 36, "accessors[0]: expected "},
-        {HEAD "," SOFT ",'accessors':[" ACCESSOR("", "100000000", "VEC3", "") "]}", 0,
-         ".attributes.POSITION: expected positions that are in the file, got none"},
-        {HEAD "," SOFT "," VIEW ACCESSOR(
-             "", "1000000", "VEC3",
-             ",'sparse':{'count':1,'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':0}}") "]}",
-         36, "vertices in a file of this size, got 1000000"},
-        // numbers that are none do not make room for the others smaller
-        {HEAD "," VIEW ACCESSOR("'bufferView':0,", "1", "VEC3", "") "," ACCESSOR(
-             "'bufferView':0,", "1000000000000000000", "VEC3",
-             "") "],'meshes':[{'primitives':[{'attributes':{'POSITION':0}},{'attributes':{'POSITION':1}}]}]}",
-         36, "attributes.POSITION: expected an accessor, got none"},
+        {"'nodes':[{}]", "expected a mesh of triangles, got none"},
+        {SHOWS("9") PLAIN, "attributes.POSITION: expected an accessor, got none"},
+        {SHOWS("0") PLAIN, "accessors[0]: expected finite numbers, got NaN"},
+        {SHOWS("1") PLAIN, "accessors[1]: expected data within the file"},
+        {SHOWS("2") PLAIN, "accessors[2]: expected "},
+        {SHOWS("3") SOFT, ".attributes.POSITION: expected positions that are in the file, got none"},
+        {SHOWS("4") SOFT, "vertices in a file of this size, got 1000000"},
     };
-    const float bin[9] = {0, 0, 0, 1, 0, 0, 0, NAN, 0};
+    const float bin[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
+    struct builder b = {0};
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 1, 0, 0, 0, NAN, 0);
+    add_accessor(&b, FLOAT, "VEC3", 4, ",'bufferView':0");
+    add_accessor(&b, FLOAT, "VEC2", 3, ",'bufferView':7");
+    add_accessor(&b, FLOAT, "VEC3", 100000000, "");
+    add_accessor(&b, FLOAT, "VEC3", 1000000,
+                 ",'sparse':{'count':1,'indices':{'bufferView':0,'componentType':5121},'values':{'bufferView':0}}");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        assert_refused(glb(rows[i].json, bin, rows[i].bytes), rows[i].says);
+        assert_refused(write_built(&b, "bad.gltf", rows[i].members), rows[i].says);
+    assert_refused(glb("{", bin, 0), "JSON, line 1");
+    assert_refused(glb("{}", bin, 0), "expected glTF 2.0, got none");
+    // numbers that are none do not make room for the others smaller
+    assert_refused(glb("{'asset':{'version':'2.0'},'buffers':[{}],'bufferViews':[{'buffer':0,'byteLength':36}],"
+                       "'accessors':[{'bufferView':0,'componentType':5126,'count':3,'type':'VEC3'},"
+                       "{'bufferView':0,'componentType':5126,'count':1000000000000000000,'type':'VEC3'}],'nodes':[{"
+                       "'mesh':0}],'meshes':[{'primitives':[{'attributes':{'POSITION':0}},{'attributes':{"
+                       "'POSITION':1}}]}]}",
+                       bin, sizeof bin),
+                   "attributes.POSITION: expected an accessor, got none");
     assert_refused("/nowhere.glb", "/nowhere.glb: cannot be opened");
     assert_refused(temporary_file("text.glb", "{\"asset\": {\"version\": \"2.0\"}}", 29),
                    "expected something to show, got no nodes");
