@@ -218,22 +218,6 @@ TEST_WITH(folder_make, folder_remove, containers_change_and_hold_the_same)
     free(points.number);
 }
 
-/// A .usda of an imported character names its textures, which are in a folder beside it, as the file had them.
-TEST_WITH(folder_make, folder_remove, textures_are_written_beside)
-{
-    const char *path = export_scene("dog", "dog.usda", (struct export_options){.substeps = 1});
-    size_t size, chunk;
-    char *text = bytes_of(path, &size), *picture = bytes_of(folder_path("dog_textures/tag_0.png"), &size),
-         *dog = bytes_of("assets/models/dog.glb", &chunk);
-    assert_non_null(strstr(text, "asset inputs:file = @./dog_textures/tag_0.png@"));
-    assert_non_null(strstr(text, "rel material:binding = </scene/dog/materials/tag>"));
-    assert_non_null(memmem(dog, chunk, picture, size));
-    free(text);
-    free(picture);
-    free(dog);
-    assert_int_equal(files_in_folder(), 2);
-}
-
 /// What is behind a name that the file has from `from` on; fails where it has none.
 static size_t behind(const char *text, size_t from, const char *name)
 {
@@ -259,8 +243,9 @@ static bool next_number(const char *text, size_t *at, double *number)
     return end != begin;
 }
 
-/// Bound where the skin of the file says: a joint's bind matrix undoes its inverse bind matrix.
-TEST_WITH(folder_make, folder_remove, usd_joints_are_bound_as_the_files)
+/// Bound where the skin of the file says: a joint's bind matrix undoes its inverse bind matrix. Every face has one material. Textures, in a
+/// folder beside it, are as the file had them.
+TEST_WITH(folder_make, folder_remove, usd_has_the_skin_and_looks_of_the_file)
 {
     size_t size;
     char *text = bytes_of(export_scene("dog", "dog.usda", (struct export_options){.substeps = 1}), &size);
@@ -283,6 +268,25 @@ TEST_WITH(folder_make, folder_remove, usd_joints_are_bound_as_the_files)
         }
     }
     assert_int_equal(found, skin->joint_count);
+
+    int faces = 0, next = 0;
+    double number;
+    for (at = numbers_of(text, 0, "] faceVertexCounts = "); next_number(text, &at, &number); faces++)
+        assert_near(number, 3, 0);
+    while (next < faces) {
+        at = numbers_of(text, at, "int[] indices = ");
+        for (; next_number(text, &at, &number); next++) assert_near(number, next, 0);
+    }
+    assert_int_equal(next, faces);
+    assert_null(strstr(text + at, "int[] indices = "));
+
+    assert_non_null(strstr(text, "asset inputs:file = @./dog_textures/tag_0.png@"));
+    assert_non_null(strstr(text, "rel material:binding = </scene/dog/materials/tag>"));
+    char *picture = bytes_of(folder_path("dog_textures/tag_0.png"), &size);
+    assert_int_equal(size, dog.images[0].size);
+    assert_memory_equal(picture, dog.images[0].bytes, size);
+    assert_int_equal(files_in_folder(), 2);
+    free(picture);
     gltf_free(&dog);
     free(text);
 }
@@ -380,24 +384,6 @@ TEST_WITH(folder_make, folder_remove, usd_skins_move_as_the_stage_does)
     assert_int_equal(vertex, points.vertices);
     assert_near(off, 0, 1e-5);
     free(points.number);
-    free(text);
-}
-
-/// Every face has one material.
-TEST_WITH(folder_make, folder_remove, usd_materials_share_out_the_faces)
-{
-    size_t size, at;
-    char *text = bytes_of(export_scene("dog", "dog.usda", (struct export_options){.substeps = 1}), &size);
-    int faces = 0, next = 0;
-    double number;
-    for (at = numbers_of(text, 0, "] faceVertexCounts = "); next_number(text, &at, &number); faces++)
-        assert_near(number, 3, 0);
-    while (next < faces) {
-        at = numbers_of(text, at, "int[] indices = ");
-        for (; next_number(text, &at, &number); next++) assert_near(number, next, 0);
-    }
-    assert_int_equal(next, faces);
-    assert_null(strstr(text + at, "int[] indices = "));
     free(text);
 }
 
