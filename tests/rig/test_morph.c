@@ -4,6 +4,7 @@
 #include "puppet.h"
 #include "rig/models.h"
 #include "rig/posing.h"
+#include "temporary.h"
 #include "ui/theme.h"
 #include <complex.h>
 #include <malloc.h>
@@ -87,7 +88,8 @@ TEST(real_parts_alone_lose_what_lags)
     figure_free(&figure);
 }
 
-/// A deformation that is linear in space has the cofactors of 1 + Re(z M) everywhere: stretched, sheared and squeezed.
+/// A deformation that is linear in space has the cofactors of 1 + Re(z M) everywhere: stretched, sheared and squeezed. A file's targets turn
+/// normals likewise, where it is small.
 TEST(normals_follow_the_deformation)
 {
     static const float re[3][3] = {{0.5f, 0.3f, 0}, {0, 0.8f, -0.2f}, {0.1f, 0, -0.4f}};
@@ -99,20 +101,38 @@ TEST(normals_follow_the_deformation)
         character.coordinates[0].im[v][r] += im[r][c] * character.position[v][c];
     }
     struct figure figure = puppet_figure(&character);
-    const struct morph morph = {.count = 1, .weight = {{0.8f, -0.6f}}};
-    mat3 m, cofactors; // columns
-    for (int i = 0; i < 9; i++)
-        m[i % 3][i / 3] = (float)(i % 4 == 0) + 0.8f * re[i / 3][i % 3] + 0.6f * im[i / 3][i % 3];
-    glm_mat3_inv(m, cofactors);
-    glm_mat3_transpose(cofactors); // but for the determinant, which is positive
-    for (int i = 0; i < figure.character.vertex_count; i++) {
-        float p[3], n[3];
-        vec3 expected;
-        morph_vertex(&figure, &morph, i, p, n);
-        glm_mat3_mulv(cofactors, figure.character.normal[i], expected);
-        glm_vec3_normalize(expected);
-        assert_near(glm_vec3_dot(expected, n), 1.0, 0.002); // 3.6°
+    const char *path = temporary_path("normals.glb");
+    struct gltf gltf;
+    struct gltf_pose pose;
+    assert_done(character_write(path, &figure.character, true, &error));
+    assert_done(gltf_read(path, &gltf, &error));
+    assert_true(gltf_pose_create(&gltf, &pose));
+    assert_int_equal(gltf_vertex_count(&gltf, 0), figure.character.vertex_count);
+    float(*posed)[3] = malloc(2 * (size_t)figure.character.vertex_count * sizeof *posed);
+    float(*normals)[3] = posed + figure.character.vertex_count;
+    for (int small = 0; small < 2; small++) { // targets of a file are exact to first order
+        const float size = small ? 0.02f : 1;
+        const struct morph morph = {.count = 1, .weight = {{0.8f * size, -0.6f * size}}};
+        mat3 m, cofactors; // columns
+        for (int i = 0; i < 9; i++)
+            m[i % 3][i / 3] = (float)(i % 4 == 0) + size * (0.8f * re[i / 3][i % 3] + 0.6f * im[i / 3][i % 3]);
+        glm_mat3_inv(m, cofactors);
+        glm_mat3_transpose(cofactors); // but for the determinant, which is positive
+        for (int k = 0; k < 2; k++) pose.weights[k] = morph.weight[0][k];
+        gltf_pose_vertices(&gltf, &pose, 0, posed, normals);
+        for (int i = 0; i < figure.character.vertex_count; i++) {
+            float p[3], n[3];
+            vec3 expected;
+            morph_vertex(&figure, &morph, i, p, n);
+            glm_mat3_mulv(cofactors, figure.character.normal[i], expected);
+            glm_vec3_normalize(expected);
+            assert_near(glm_vec3_dot(expected, n), 1.0, 0.002); // 3.6°
+            for (int k = 0; k < 3 && small; k++) assert_near(normals[i][k], expected[k], 0.003);
+        }
     }
+    free(posed);
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
     figure_free(&figure);
 }
 
