@@ -8,7 +8,6 @@
 #include "ui/theme.h"
 #include <complex.h>
 #include <malloc.h>
-#include <unistd.h>
 
 /// Every vertex moves in its own way.
 static void stir(struct character *character)
@@ -257,51 +256,42 @@ static struct document *scene_with(const char *model)
 /// The scene stays as it is; one sentence says what is the matter.
 TEST(a_model_that_is_missing_or_broken_is_said)
 {
-    char path[] = "/tmp/wiggly-test-XXXXXX";
-    const int file = mkstemp(path);
-    assert_true(file >= 0);
-    assert_int_equal(write(file, "glTF, but not really", 20), 20);
-    close(file);
-    static const char *const sentences[] = {"/nowhere/at-all.glb: ", "/tmp/wiggly-test-"};
-    const char *const names[] = {"/nowhere/at-all.glb", path};
+    char *broken = realpath(temporary_file("broken.glb", "glTF, but not really", 20), NULL);
+    const char *const names[] = {"/nowhere/at-all.glb", broken};
     for (int i = 0; i < 2; i++) {
         struct document *document = scene_with(names[i]);
         struct models *models = models_create();
         struct error error = {0};
         assert_false(models_update(models, document, &error));
-        assert_int_equal(strncmp(error.text, sentences[i], strlen(sentences[i])), 0);
+        assert_int_equal(strncmp(error.text, names[i], strlen(names[i])), 0);
         assert_null(models_figure(models, 0));
         assert_string_equal(document_character(document, 0)->model, names[i]);
         models_destroy(models);
         document_destroy(document);
     }
-    unlink(path);
+    free(broken);
 }
 
 /// A coordinate that the model lacks is said, and what it has moves; a file that was written anew is read anew.
 TEST(a_model_is_read_once_and_again_when_it_changes)
 {
-    char path[] = "/tmp/wiggly-test-XXXXXX";
-    close(mkstemp(path));
+    const char *path = temporary_path("ball.glb");
     struct character character = puppet_character(0.2f, 1), finer = puppet_character(0.1f, 1);
     struct document *document = scene_with(path);
     struct models *models = models_create();
-    struct error error = {0};
-    char sentence[256];
-    assert_true(character_write(path, &character, true, &error));
-    assert_false(models_update(models, document, &error));
-    snprintf(sentence, sizeof sentence, "%s: expected a coordinate called \"z\", got others, such as a", path);
-    assert_string_equal(error.text, sentence);
+    struct error lacks;
+    assert_done(character_write(path, &character, true, &error));
+    assert_refusal(models_update(models, document, &error),
+                   "ball.glb: expected a coordinate called \"z\", got others, such as a");
     const struct figure *figure = models_figure(models, 0);
     assert_non_null(figure);
     const uint64_t id = figure->id;
-    models_update(models, document, &error);
+    models_update(models, document, &lacks);
     assert_true(models_figure(models, 0)->id == id);
-    assert_true(character_write(path, &finer, true, &error));
-    models_update(models, document, &error);
+    assert_done(character_write(path, &finer, true, &error));
+    models_update(models, document, &lacks);
     assert_true(models_figure(models, 0)->id != id);
     assert_int_equal(models_figure(models, 0)->character.vertex_count, finer.vertex_count);
-    unlink(path);
     models_destroy(models);
     document_destroy(document);
     character_free(&character);
