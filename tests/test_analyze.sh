@@ -1,10 +1,8 @@
-# wiggly analyze: from simulated motions to a character and a scene; and what it says of files that it cannot use.
+# wiggly analyze: from simulated motions to a character and a scene. What it refuses has test_commands.c.
 . tests/check.sh
 . tests/box.sh
 
 write_box "$scratch/box.obj"
-grep -v '^f' "$scratch/box.obj" | head -n 4 >"$scratch/small.obj"
-echo 'f 1 2 3 4' >>"$scratch/small.obj"
 
 simulate() { # <name> <options>...
     local name=$1
@@ -131,42 +129,3 @@ if command -v ldd >/dev/null; then
     ! ldd "$WIGGLY" | grep -qE 'lapack|blas'
     ok "the program does without LAPACKE until it analyses" $?
 fi
-
-refused() { # <exit status> <what it says> <arguments>...
-    local status=$1 what=$2
-    shift 2
-    analyze "$status" "refuses: $what" "$@" -o "$scratch/none.glb"
-    says "in one line" "$what" "$err"
-    [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ] && [ ! -e "$scratch/none.glb" ]
-    ok "and no more, and writes nothing" $?
-}
-cp "$scratch/up.npy" "$scratch/broken.npy" && echo '{"fps": 0}' >"$scratch/broken.simulation.json"
-head -c 1000 "$scratch/up.npy" >"$scratch/cut.npy"
-rest="--rest $scratch/box.obj"
-# shellcheck disable=SC2086 # the options are split on purpose
-{
-    refused 2 "give --fps N" "$scratch/up.npy" $rest
-    refused 2 "--rest mesh.obj is missing" "$scratch/found/world.npy"
-    refused 2 "--pin: expected a height, none, plane:" "$scratch/up.npy" $rest --pin round
-    refused 1 "no vertex is in the region of --pin" "$scratch/up.npy" $rest --fps 30 --pin sphere:9,9,9,1
-    refused 1 "broken.simulation.json: expected what wiggly simulate writes" "$scratch/broken.npy" $rest
-    refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake sideways
-    refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake up:side
-    refused 2 "--method: expected poles or cpca" "$scratch/up.npy" $rest --fps 30 --method pca
-    refused 2 "--from has no effect with --method cpca" "$scratch/up.npy" $rest --fps 30 --method cpca --from 1
-    refused 1 "up.npy: expected 8 frames or more after the drive stops, got 6" "$scratch/up.npy" $rest --fps 30 --from 1.8
-    refused 1 "up.npy: expected 8 frames or more after the drive stops, got 0" "$scratch/up.npy" $rest --fps 30 --from 1e6
-    refused 2 "an argument is missing" $rest
-    refused 2 "--modes: expected a whole number from 1 to 8" "$scratch/up.npy" $rest --modes 9
-    refused 1 "expected 4 vertices as $scratch/small.obj has, got 8" "$scratch/up.npy" --rest "$scratch/small.obj" --fps 30
-    refused 1 "cut.npy: expected 60 frames of 8 vertices, got a file that ends in frame 9" "$scratch/cut.npy" $rest --fps 30
-    refused 1 "box.obj: expected a motion (.npy, .pc2 or .mdd)" "$scratch/box.obj" $rest --fps 30
-    refused 1 "none.npy: cannot be opened" "$scratch/none.npy" $rest --fps 30
-    refused 1 "up.npy: expected the text of an OBJ file, got binary data" "$scratch/up.npy" --rest "$scratch/up.npy" --fps 30
-}
-analyze 2 "refuses to write nowhere" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30
-says "and says so" "-o creature.glb is missing" "$err"
-analyze 3 "a folder that is not there" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/nowhere/a.glb"
-says "is named" "nowhere/a.glb: cannot be written" "$err"
-analyze 3 "a table in such a folder" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/a.glb" --coordinates "$scratch/nowhere/a.csv"
-says "too" "nowhere/a.csv: cannot be written" "$err"

@@ -1,4 +1,4 @@
-# wiggly log: what it says of a log, and what it refuses. live --turns: two programs draw in turn.
+# wiggly log: what it says of a log. live --turns: two programs draw in turn.
 . tests/check.sh
 unset DISPLAY WAYLAND_DISPLAY
 
@@ -31,15 +31,8 @@ cat "$scratch/b.csv" "$scratch/b.csv" >"$scratch/twice.csv"
 expect 0 "a log of two slow runs" "$WIGGLY" log "$scratch/twice.csv"
 says "frames in a row are of one run" "120 of 120 frames (100.0 %), up to 60 in a row" "$out"
 
-expect 1 "a log that is not there" "$WIGGLY" log "$scratch/none.csv"
-says "is named" "none.csv" "$err"
-expect 1 "a file that is no log" "$WIGGLY" log tests/replays/session.json
-says "says the line" "session.json:1: expected a timing log's '# schema:' line first" "$err"
-expect 2 "no log at all" "$WIGGLY" log
-
 # --- frames in turn
 
-expect 2 "--turns first or second" "$WIGGLY" live --headless --turns third
 expect 2 "--turns without pipes" sh -c '"$0" live --headless --frames 2 --turns first 3<&- 4>&-' "$WIGGLY"
 says "says what is missing" "descriptors 3 and 4" "$err"
 

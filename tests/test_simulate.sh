@@ -1,11 +1,8 @@
-# wiggly simulate: what it writes, and what it says of meshes and options that it cannot use.
+# wiggly simulate: what it writes and says. What it refuses has test_commands.c.
 . tests/check.sh
 . tests/box.sh
 
-# A box; its twin without the last triangle; a mesh without volume.
 write_box "$scratch/box.obj"
-sed '$s/ 1$//' "$scratch/box.obj" >"$scratch/open.obj"
-printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n' >"$scratch/flat.obj"
 quick=(--tets 60 --seconds 0.25 --fps 24 --substeps 2)
 
 expect 0 "a box is shaken" "$WIGGLY" simulate "$scratch/box.obj" --shake side "${quick[@]}" -o "$scratch/box.npy"
@@ -68,23 +65,12 @@ awk '/^v/ { print "v", $2 / 5, 2 * $3, $4 / 5; next } 1' "$scratch/box.obj" >"$s
 expect 0 "a rod that is pulled" "$WIGGLY" simulate "$scratch/rod.obj" --seconds 0.1 --substeps 1 -o "$scratch/rod.npy"
 says "is told how slowly it sways" "rod.obj: warning: the lowest mode, of 0." "$err"
 
-expect 0 "a mesh with a hole" "$WIGGLY" simulate "$scratch/open.obj" "${quick[@]}" -o "$scratch/open.npy"
-says "is told of" "open.obj: open at 3 edges: inside is where its winding number exceeds a half" "$out"
 { echo "v 90 90 90" && awk '/^v/ { print $1, 1000 * $2, -1000 * $4, 1000 * $3; next } /^f/ { print $1, $2 + 1, $3 + 1, $4 + 1, $5 + 1 }' \
     "$scratch/box.obj"; } >"$scratch/z.obj"
 expect 0 "a mesh in millimetres with z up" "$WIGGLY" simulate "$scratch/z.obj" --up z --scale 0.001 --shake side "${quick[@]}" -o "$scratch/z.npy"
 says "with a vertex too many" "z.obj: warning: 1 vertex is part of no triangle" "$err"
 tail -n +2 "$scratch/z.rest.obj" | sed -n '/^v/p' | sed 's/-0\b/0/g' | diff -q - <(sed -n '/^v/p' "$scratch/box.rest.obj") >/dev/null
 ok "stands as the box does" $?
-sed 's/^v 90 /v 1e31 /' "$scratch/z.obj" >"$scratch/far.obj"
-expect 1 "a scale that makes it infinite" "$WIGGLY" simulate "$scratch/far.obj" --scale 1e9 "${quick[@]}" -o "$scratch/far.npy"
-says "is refused" "far.obj: expected a size that --scale keeps finite, got an infinite one" "$err"
-holds "and nothing is written" [ ! -e "$scratch/far.npy" ]
-for scale in inf nan 1e999; do
-    expect 2 "a scale of $scale" "$WIGGLY" simulate "$scratch/z.obj" --scale $scale "${quick[@]}" -o "$scratch/far.npy"
-    says "is refused" "--scale: expected a number from 1e-09 to 1000000000, got '$scale'" "$err"
-done
-
 # A flag is a sheet from its mesh to the character, whose back is drawn, too.
 { printf 'v %s\n' '0 0 0' '.5 0 0' '1 0 0' '0 1 0' '.5 1 0' '1 1 0' && printf 'f %s\n' '1 2 5 4' '2 3 6 5'; } >"$scratch/flag.obj"
 pole=(--thickness 0.1 --pin plane:.1,0,0,1,0,0 --shake front --amplitude 0.1)
@@ -101,31 +87,6 @@ holds "is searched for within the budget" [ "$(grep -c 'steps a frame: error' <<
 says "and the error that was reached is said" "far.npy: warning: expected an error of the motion of at most 0.01 %, got " "$err"
 says "with what gives less" "--substeps 16 or a larger --budget may come nearer" "$err"
 
-refused() { # <exit status> <what it says> <arguments>...
-    local status=$1 what=$2
-    shift 2
-    expect "$status" "refuses: $what" "$WIGGLY" simulate "$@"
-    says "in one line" "$what" "$err"
-    holds "and no more" [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ]
-}
-o=(-o "$scratch/none.npy")
-sed 's/^v 0 0 0$/v 0 0 0 1e30 0 0/' "$scratch/box.obj" >"$scratch/bright.obj"
-# A .npy of float32, its numbers as bytes.
-write_map() { # <name> <shape> <bytes>
-    printf "\223NUMPY\1\0\166\0%-117s\n$3" "{'descr': '<f4', 'fortran_order': False, 'shape': $2, }" >"$scratch/$1.npy"
-}
-half='\0\0\0\77' nan='\0\0\300\177' two='\0\0\0\100' minus='\0\0\0\277'
-six=$half$half$half$half$half$half
-write_map map "(8,)" "$six$half$half"
-write_map short "(8,)" "$six"
-write_map long "(9,)" "$six$half$half$half"
-write_map huge "(8, 4611686018427387904)" "$six$half$half"
-write_map wild "(8,)" "$six$half$nan"
-write_map above "(8, 1)" "$two$six$half"
-write_map below "(8,)" "$six$half$minus"
-printf '\223NUMPY\1\0\377\377{ and no more' >"$scratch/endless.npy"
-printf '\223NUMPY\1\0\166\0{ and no more' >"$scratch/header.npy"
-printf 'no' >"$scratch/tiny.npy"
 colored() { awk -v a="$1" -v b="$2" '/^v/ { c = $3 > 0 ? a : b; print $0, c, c, c; next } 1' "$scratch/box.obj"; }
 colored 9 -9 >"$scratch/white.obj"
 colored 90 -90 >"$scratch/whiter.obj"
@@ -133,40 +94,6 @@ for name in white whiter; do
     expect 0 "softness where vertices are $name" "$WIGGLY" simulate "$scratch/$name.obj" --soft color "${quick[@]}" -o "$scratch/$name.npy"
 done
 holds "white is as soft as it gets" cmp -s "$scratch/white.npy" "$scratch/whiter.npy"
-expect 0 "a painted map of softness" "$WIGGLY" simulate "$scratch/box.obj" --soft "$scratch/map.npy" "${quick[@]}" -o "$scratch/soft.npy"
-refused 1 "bright.obj:1: expected a colour from 0 to 1, got 1e+30" "$scratch/bright.obj" "${o[@]}"
-refused 1 "short.npy: expected 8 numbers, got a file that ends before" "$scratch/box.obj" --soft "$scratch/short.npy" "${o[@]}"
-refused 1 "long.npy: expected an array of 8 numbers, one a vertex" "$scratch/box.obj" --soft "$scratch/long.npy" "${o[@]}"
-refused 1 "huge.npy: expected" "$scratch/box.obj" --soft "$scratch/huge.npy" "${o[@]}"
-refused 1 "wild.npy: vertex 7: expected a number from 0 to 1, got nan" "$scratch/box.obj" --soft "$scratch/wild.npy" "${o[@]}"
-refused 1 "above.npy: vertex 0: expected a number from 0 to 1, got 2" "$scratch/box.obj" --soft "$scratch/above.npy" "${o[@]}"
-refused 1 "below.npy: vertex 7: expected a number from 0 to 1, got -0.5" "$scratch/box.obj" --soft "$scratch/below.npy" "${o[@]}"
-refused 1 "endless.npy: expected the header of an .npy array" "$scratch/box.obj" --soft "$scratch/endless.npy" "${o[@]}"
-refused 1 "header.npy: expected a header of 128 bytes, got 23" "$scratch/box.obj" --soft "$scratch/header.npy" "${o[@]}"
-refused 1 "tiny.npy: expected a .npy file" "$scratch/box.obj" --soft "$scratch/tiny.npy" "${o[@]}"
-refused 1 "box.obj: expected" "$scratch/box.obj" --soft "$scratch/box.obj" "${o[@]}"
-refused 1 "nowhere.npy: cannot be opened" "$scratch/box.obj" --soft "$scratch/nowhere.npy" "${o[@]}"
-refused 1 "nothing can move: all of it is in the region of --pin" "$scratch/flag.obj" --up z --thickness 0.1 "${o[@]}"
-refused 1 "flat.obj: the mesh has no clear inside: --thickness 0.03 makes it a sheet of 0.03 m" "$scratch/flat.obj" "${o[@]}"
-refused 1 "nowhere.obj" "$scratch/nowhere.obj" "${o[@]}"
-refused 1 "nothing can move" "$scratch/box.obj" --tets 60 --pin 9 "${o[@]}"
-refused 2 "--up: expected x, y or z" "$scratch/box.obj" --up w "${o[@]}"
-refused 2 "unknown option --yuong (did you mean --young?)" "$scratch/box.obj" --yuong 1 "${o[@]}"
-refused 2 "--poisson" "$scratch/box.obj" --poisson 0.5 "${o[@]}"
-refused 2 "--shake: expected up, side, front or a vector x,y,z" "$scratch/box.obj" --shake 0,0,0 "${o[@]}"
-refused 2 "--young and --frequency both set the stiffness" "$scratch/box.obj" --young 1e6 --frequency 2 "${o[@]}"
-refused 2 "--density needs --young" "$scratch/box.obj" --density 500 "${o[@]}"
-refused 2 "--drive-frequency and --world need a drive, got none" "$scratch/box.obj" --drive none --world "${o[@]}"
-refused 2 "--impulse and a drive both start the motion" "$scratch/box.obj" --drive sine --impulse "${o[@]}"
-refused 2 "--drive moves the pinned part, but --pin none pins nothing" "$scratch/box.obj" --drive sine --pin none "${o[@]}"
-refused 2 "--drive: expected burst, sine, sweep, a track's FILE.csv or none" "$scratch/box.obj" --drive bursts "${o[@]}"
-refused 2 "--pin: expected fewer than 128 characters" "$scratch/box.obj" --pin "$(printf '0.%0130d' 1)" "${o[@]}"
-refused 2 "-o FILE is missing" "$scratch/box.obj"
-refused 2 "expected a name ending in .npy or .pc2" "$scratch/box.obj" -o "$scratch/box.abc"
-refused 2 "expected a name ending in .npy for --modal" "$scratch/box.obj" --modal 2 -o "$scratch/box.pc2"
-refused 3 "$scratch/no/such/none.npy" "$scratch/box.obj" --tets 60 -o "$scratch/no/such/none.npy"
-holds "nothing was written" [ -z "$(find "$scratch" -name '*none*')" ]
-
 # A disk of one block: the old file stays, nothing half-written beside it.
 (
     ulimit -f 2

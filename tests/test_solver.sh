@@ -4,12 +4,6 @@ unset DISPLAY WAYLAND_DISPLAY
 scene=tests/replays/session.json
 replay=tests/replays/session.replay
 
-for command in "solve $scene" live; do
-    # shellcheck disable=SC2086
-    expect 2 "${command%% *} by a solver that there is none of" "$WIGGLY" $command --solver tree
-    says "says which there are" "wiggly ${command%% *}: --solver: expected chain or band, got 'tree'" "$err"
-done
-
 # --- the same curves, not the same bits
 
 for solver in chain band; do

@@ -217,24 +217,58 @@ TEST_WITH(folder_make, folder_remove, text_on_the_clipboard)
     blind_close(&blind);
 }
 
-static void replay_says(const char *rest, const char *fragment)
+static bool place(void *user, const char *target, float *x, float *y, struct error *error)
 {
-    char text[256];
-    struct error error = {0};
-    snprintf(text, sizeof text, "wiggly-replay 1\nsize 640 480\nscale 1\n%s", rest);
-    struct replay *replay = replay_parse("r", text, strlen(text), &error);
-    assert_int_equal(replay != NULL, !fragment);
-    if (fragment) says(&error, fragment);
-    replay_destroy(replay);
+    (void)user, (void)target, (void)error;
+    *x = *y = 9;
+    return true;
 }
 
-TEST_WITH(folder_make, folder_remove, frames_of_a_replay)
+#define REPLAY(size, rest) "wiggly-replay 1\nsize " size "\nscale 1\n" rest
+
+/// What is refused is refused with its line.
+TEST_WITH(folder_make, folder_remove, lines_of_a_replay)
 {
-    replay_says("frames 9999999\n", NULL);
-    replay_says("frames 10000000\n9999999 close\n", NULL);
-    replay_says("frames 10000001\n", "r:4: expected a number of frames up to 10000000, got \"10000001\"");
-    replay_says("frames 0\n9999999 close\n", NULL); // one that was cut short
-    replay_says("frames 0\n10000000 close\n", "r:5: expected an event in a frame from 0 to 9999999");
+    static const struct {
+        const char *text, *says; ///< NULL: taken
+    } rows[] = {
+        {REPLAY("63 63", "frames 9\n"), "r:2: expected a width and a height from 64 to 16384"},
+        {REPLAY("64 64", "frames 9\n"), NULL},
+        {REPLAY("16384 16384", "frames 9\n"), NULL},
+        {REPLAY("16385 16385", "frames 9\n"), "r:2: expected a width and a height from 64 to 16384"},
+        {REPLAY("640 480", "frames 9999999\n"), NULL},
+        {REPLAY("640 480", "frames 10000000\n9999999 close\n"), NULL},
+        {REPLAY("640 480", "frames 10000001\n"), "r:4: expected a number of frames up to 10000000, got \"10000001\""},
+        {REPLAY("640 480", "frames 0\n9999999 close\n"), NULL}, // one that was cut short
+        {REPLAY("640 480", "frames 0\n10000000 close\n"), "r:5: expected an event in a frame from 0 to 9999999"},
+        {"hello\n", "r:1: expected \"wiggly-replay 1\", got \"hello\""},
+        {"\f\f\n", "expected \"wiggly-replay 1\""},
+        {"wiggly-replay 1\n\v\n", "expected a header with size and frames"},
+#define LINE(text) REPLAY("640 480", "frames 1200\n" text "\n")
+        {LINE("5 key A\n3 key B"), "r:6: expected an event in a frame from 5 to 1199, got \"3\""},
+        {LINE("1200 key A"), "r:5: expected an event in a frame from 0 to 1199, got \"1200\""},
+        {LINE("99999999999999999999 key A"), "r:5: expected an event in a frame"},
+        {LINE("5 key"), "r:5: expected the name of a key, got the end of the line"},
+        {LINE("5 wheel 0 1e39 100 100"), "r:5: expected a number, got \"1e39\""},
+        {LINE("5 pointer @knot(sway,2)+1e39,0"),
+         "r:5: expected an offset such as +4,-3 behind the target, got \"+1e39,0\""},
+        {LINE("5 close now"), "r:5: expected the end of the line, got \"now\""},
+        {LINE("5 size 0 0"), "r:5: expected a width and a height from 64"},
+        {LINE("5 paste"), "r:5: expected a text, got the end of the line"},
+        {LINE("5 size 64 64\r\n  \n\t\n9 wheel 0 1 400 500 shift ctrl alt super"), NULL},
+#undef LINE
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct error error = {0};
+        struct event event;
+        struct replay *replay = replay_parse("r", rows[i].text, strlen(rows[i].text), &error);
+        for (long frame = 0; replay && frame < 20; frame++)
+            while (replay_next(replay, frame, place, NULL, &event, &error)) continue;
+        if (!rows[i].says) assert_int_equal(error.kind, ERROR_NONE);
+        if (rows[i].says) says(&error, rows[i].says);
+        replay_destroy(replay);
+    }
+    assert_refusal(replay_parse("r", "wiggly-replay 1\0\n", 17, &error) != NULL, "r: expected text, got a NUL byte");
 }
 
 /// A letter beyond what is kept of a field of CSV would change its number without a word.

@@ -1,0 +1,464 @@
+/// What commands say and refuse, a row for each: options, what they read, what they would write over.
+#include "command.h"
+
+#include <fcntl.h>
+
+enum { LINE = 4096 };
+
+static void copy(const char *name, const char *from, const char *text, const char *by)
+{
+    char *data, *at;
+    size_t size;
+    assert_done(file_read(from, 1 << 24, &data, &size, &error));
+    if (text && (at = strstr(data, text))) {
+        char *changed = malloc(size + strlen(by) + 1);
+        size = (size_t)sprintf(changed, "%.*s%s%s", (int)(at - data), data, by, at + strlen(text));
+        free(data);
+        data = changed;
+    }
+    assert_done(file_write_atomic(folder_path(name), data, size, &error));
+    free(data);
+}
+
+#define BOX_VERTICES "v 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 2 0\nv 1 2 0\nv 1 2 1\nv 0 2 1\n"
+#define BOX_FACES "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n"
+#define THREE(file)                                                                                                  \
+    "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"uri\": \"" file "\", \"byteLength\": 36}], "               \
+    "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}], \"accessors\": [{\"bufferView\": 0, "                   \
+    "\"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}], \"meshes\": [{\"primitives\": [{\"attributes\": "  \
+    "{\"POSITION\": 0}}]}], \"nodes\": [{\"name\": \"n\", \"mesh\": 0}], \"scenes\": [{\"nodes\": [0]}]}"
+#define SHOWS(file)                                                                                                  \
+    "{\"wiggly\": 1, \"frames\": [0, 9], \"splines\": [{\"name\": \"s\"}], \"rigs\": [{\"type\": \"model\", "        \
+    "\"model\": \"" file "\"}]}"
+#define LONG(frames)                                                                                                 \
+    "{\"wiggly\": 1, \"fps\": 1, \"frames\": [0, " frames "], \"splines\": [{\"name\": \"s\"}], \"rigs\": "          \
+    "[{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\"}]}"
+
+static const struct {
+    const char *name, *text;
+} files[] = {
+    {"box.obj", "v 0 0 0\n" BOX_VERTICES BOX_FACES},
+    {"rest.obj", "v 0 0 0\n" BOX_VERTICES BOX_FACES},
+    {"cube.rest.obj", "v 0 0 0\n" BOX_VERTICES BOX_FACES},
+    {"bright.obj", "v 0 0 0 1e30 0 0\n" BOX_VERTICES BOX_FACES},
+    {"four.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n"},
+    {"flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n"},
+    {"far.obj", "v 1e31 90 90\nv 0 0 0\n" BOX_VERTICES BOX_FACES},
+    {"open.obj", "v 0 0 0\n" BOX_VERTICES "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5\n"},
+    {"flag.obj", "v 0 0 0\nv .5 0 0\nv 1 0 0\nv 0 1 0\nv .5 1 0\nv 1 1 0\nf 1 2 5 4\nf 2 3 6 5\n"},
+    {"three.gltf", THREE("three.bin")},
+    {"three.json", SHOWS("three.gltf")},
+    {"odd.gltf", THREE("w-0002.png")}, // as pictures of a film are called
+    {"odd.json", SHOWS("odd.gltf")},
+    {"shots.gltf", THREE("sub/frame_00000.png")},
+    {"shots.json", SHOWS("shots.gltf")},
+    {"keys.json", LONG("90009")},
+    {"film.json", LONG("41841")},
+    {"bad.json", "{\"frames\": [9, 0], \"fps\": -1,\n\"splines\": [{\"name\": 3}]}"},
+    {"c.json", "{\"frames\": [0, 9], \"splines\": [{\"name\": \"s\", \"knots\": [{\"frame\": 0, \"value\": 1}]}]}"},
+    {"loose.json",
+     "{\"frames\": [0, 48], \"splines\": [{\"name\": \"loose\", \"frequency\": 1, \"calm\": 0, \"knots\": "
+     "[{\"frame\": 0, \"value\": 0}, {\"frame\": 24, \"value\": 1}]}]}"},
+    {"pinned.json",
+     "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"limits\": [-1, 1], \"knots\": "
+     "[{\"frame\": 0, \"value\": 0}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\", "
+     "\"pins\": [{\"frame\": 20, \"joint\": 23, \"to\": [0, 9, 0]}]}]}"},
+    {"sunk.json",
+     "{\"frames\": [0, 24], \"splines\": [{\"name\": \"up\", \"frequency\": 1, \"knots\": [{\"frame\": 0, \"value\": "
+     "0}, {\"frame\": 20, \"value\": -8}]}], \"rigs\": [{\"type\": \"character\", \"name\": \"soft\", \"model\": "
+     "\"assets/models/creature.glb\", \"floor\": 0, \"coordinates\": [{\"name\": \"up\", \"spline\": \"up\", "
+     "\"amplitude\": 4}]}]}"},
+    {"tiny.npy", "no"},
+    {"broken.simulation.json", "{\"fps\": 0}"},
+    {"a.FBX", "Kaydara FBX Binary"},
+    {"hello.replay", "hello\n"},
+    {"other.replay", "wiggly-replay 1\nsize 640 480\nscale 1\nscene 1\nframes 2\n"},
+    {"old.csv", "old"},
+};
+
+#define QUICK "--tets 60 --seconds 0.25 --fps 24 --substeps 2 "
+#define BLIND "live --no-draw --frames 2 "
+#define DRAWN "live --headless --frames 2 "
+#define OVER(input) "cannot be written, because it is read as " input
+
+/// An .npy array of float32; one of so many bytes.
+static void write_map(const char *name, const char *shape, const float *numbers, size_t bytes)
+{
+    char text[256], about[118];
+    snprintf(about, sizeof about, "{'descr': '<f4', 'fortran_order': False, 'shape': %s, }", shape);
+    snprintf(text, sizeof text, "\x93NUMPY\x01%c\x76%c%-117s\n", 1, 1, about);
+    text[7] = text[9] = 0;
+    memcpy(text + 128, numbers, bytes);
+    assert_done(file_write_atomic(folder_path(name), text, 128 + bytes, &error));
+}
+
+static int open_folder(void **state)
+{
+    static const char zeros[36];
+    static const char *const binary[] = {"three.bin", "w-0002.png", "sub/frame_00000.png"};
+    static const char *const links[][2] = {{"s.json", "soft.csv"},
+                                           {".", "here"},
+                                           {"dog.glb", "walk.glb"},
+                                           {"/dev/full", "full"},
+                                           {"there.csv", "link.csv"}};
+    char place[256];
+    const float half[9] = {.5f, .5f, .5f, .5f, .5f, .5f, .5f, .5f, .5f};
+    const float above[8] = {2}, below[8] = {0, 0, 0, 0, 0, 0, 0, -.5f}, wild[8] = {0, 0, 0, 0, 0, 0, 0, NAN};
+    if (folder_make(state) != 0 || mkdir(folder_path("sub"), 0700) != 0 || !getcwd(place, sizeof place)) return -1;
+    for (int i = 0; i < 2; i++) { // what the rows name as from the root of the tree
+        char from[300];
+        snprintf(from, sizeof from, "%s/%s", place, i ? "tests" : "assets");
+        assert_int_equal(symlink(from, folder_path(i ? "tests" : "assets")), 0);
+    }
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) folder_file(files[i].name, files[i].text);
+    for (int i = 0; i < 3; i++) assert_done(file_write_atomic(folder_path(binary[i]), zeros, 36, &error));
+    copy("s.json", "assets/scenes/tail.json", NULL, NULL);
+    copy("dog.json", "assets/scenes/dog.json", "../models/dog.glb", "dog.glb");
+    copy("dog.glb", "assets/models/dog.glb", NULL, NULL);
+    folder_file("there.csv", "");
+    for (size_t i = 0; i < sizeof links / sizeof *links; i++)
+        assert_int_equal(symlink(links[i][0], folder_path(links[i][1])), 0);
+    assert_int_equal(link(folder_path("s.json"), folder_path("hard.csv")), 0);
+    assert_int_equal(link(folder_path("there.csv"), folder_path("twin.csv")), 0);
+    for (int i = 0; i < 3; i++) {
+        static const char *const pipes[] = {"pipe.csv", "pipe.gif", "pipe.json"};
+        assert_int_equal(mkfifo(folder_path(pipes[i]), 0600), 0);
+    }
+    write_map("map.npy", "(8,)", half, 32);
+    write_map("short.npy", "(8,)", half, 24);
+    write_map("long.npy", "(9,)", half, 36);
+    write_map("huge.npy", "(8, 4611686018427387904)", half, 32);
+    write_map("wild.npy", "(8,)", wild, 32);
+    write_map("above.npy", "(8, 1)", above, 32);
+    write_map("below.npy", "(8,)", below, 32);
+    assert_done(file_write_atomic(folder_path("endless.npy"), "\x93NUMPY\1\0\xff\xff{ and no more", 23, &error));
+    assert_done(file_write_atomic(folder_path("header.npy"), "\x93NUMPY\1\0\x76\0{ and no more", 23, &error));
+    assert_command(0, "simulate rest.obj --tets 60 --seconds 2 --fps 30 --substeps 2 --drive none -o up.npy",
+                   "up.npy: 60 frames");
+    copy("up.rest.obj", folder_path("rest.obj"), NULL, NULL);
+    copy("broken.npy", folder_path("up.npy"), NULL, NULL);
+    copy("found.npy", folder_path("up.npy"), NULL, NULL);
+    copy("cut.npy", folder_path("up.npy"), NULL, NULL);
+    assert_int_equal(truncate(folder_path("cut.npy"), 1000), 0);
+    copy("cut.glb", folder_path("dog.glb"), NULL, NULL);
+    assert_int_equal(truncate(folder_path("cut.glb"), 5000), 0);
+    assert_command(0, "live --no-draw --frames 2 --record r.replay s.json", "");
+    return 0;
+}
+
+TESTS_BETWEEN(open_folder, folder_remove)
+
+static const char *const names[] = {"live", "solve", "rig", "export", "check", "simulate", "analyze", "log"};
+
+TEST(every_command_has_help_and_names_the_nearest_option)
+{
+    char line[64], usage[64];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(line, sizeof line, "%s --help", names[i]);
+        snprintf(usage, sizeof usage, "Usage: wiggly %s", names[i]);
+        assert_command(0, line, usage);
+        snprintf(line, sizeof line, "%s --hlep", names[i]);
+        assert_command(2, line, "unknown option --hlep (did you mean --help?)");
+    }
+    assert_command(0, "live --help", "--ui-scale");
+    assert_null(strstr(command.out, "--replay"));
+    assert_command(0, "live --help-all", "--replay");
+}
+
+/// The ends of a range are taken (then the option behind is what is wrong), what lies beyond is not.
+TEST(ranges_of_options)
+{
+    static const struct {
+        const char *option, *below, *least, *most, *above;
+    } rows[] = {
+        {"live --frames", "0", "1", "10000000", "10000001"},
+        {"live --size", "319x320", "320x320", "8192x8192", "8192x8193"},
+        {"live --scale", "0.49999", "0.5", "4", "4.00001"},
+        {"live --ui-scale", "0.7499", "0.75", "3", "3.001"},
+        {"export --fps", "0.00099", "0.001", "100000", "100000.1"},
+        {"export --substeps", "0", "1", "1024", "1025"},
+        {"export --size", "15x16", "16x16", "8192x8192", "8193x16"},
+        {"export --loops", "0", "1", "10000", "10001"},
+        {"rig --frequency", "0.00099", "0.001", "1000", "1000.1"},
+        {"rig --damping", "0", "0.000001", "1", "1.00001"},
+        {"analyze --fps", "0.00099", "0.001", "100000", "100000.1"},
+        {"analyze --modes", "0", "1", "8", "9"},
+        {"analyze --from", "-0.1", "0", "1000000", "1000001"},
+        {"simulate --scale", "9e-10", "1e-09", "1000000000", "1000000001"},
+        {"simulate --amplitude", "-2.01", "-2", "2", "2.01"},
+        {"simulate --drive-frequency", "0.00099", "0.001", "1000", "1000.1"},
+        {"simulate --seconds", "0.00099", "0.001", "3600", "3600.1"},
+        {"simulate --fps", "0.99", "1", "1000", "1000.1"},
+        {"simulate --accuracy", "0.000099", "0.0001", "1", "1.01"},
+        {"simulate --substeps", "0", "1", "1000", "1001"},
+        {"simulate --tets", "49", "50", "200000", "200001"},
+        {"simulate --frequency", "0.00099", "0.001", "1000", "1000.1"},
+        {"simulate --softness", "0.00099", "0.001", "1000", "1000.1"},
+        {"simulate --poisson", "-0.01", "0", "0.49", "0.4901"},
+        {"simulate --damping", "-0.01", "0", "1", "1.01"},
+        {"simulate --gravity", "-0.1", "0", "10000", "10000.1"},
+        {"simulate --floor", "-0.1", "0", "1000000", "1000001"},
+        {"simulate --modal", "0", "1", "200", "201"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *const values[] = {rows[i].least, rows[i].most, rows[i].below, rows[i].above, "nan", "inf",
+                                      "1e999",       "",           "1,5"};
+        for (int v = 0; v < 9; v++) {
+            char line[128], says[64];
+            snprintf(line, sizeof line, "%s=%s --nonsense", rows[i].option, values[v]);
+            snprintf(says, sizeof says, "%s: expected", strchr(rows[i].option, ' ') + 1);
+            assert_command(2, line, v < 2 ? "--nonsense" : says);
+        }
+    }
+}
+
+/// Chains of a rig, and motions of an analysis.
+TEST(options_that_are_given_many_times)
+{
+    char line[LINE];
+    for (int times = 31; times <= 33; times++) {
+        int n = sprintf(line, "rig");
+        for (int i = 0; i < times; i++) n += sprintf(line + n, " --chain a:b");
+        sprintf(line + n, " --nonsense");
+        assert_command(2, line, times > 32 ? "at most 32 times" : "--nonsense");
+    }
+    for (int times = 15; times <= 17; times++) {
+        int n = sprintf(line, "analyze --rest mesh.obj");
+        for (int i = 0; i < times; i++) n += sprintf(line + n, " motion.npy");
+        assert_command(2, line, times > 16 ? "motion.npy" : "-o creature.glb");
+    }
+}
+
+static const struct row {
+    int status;
+    const char *line, *says;
+} rows[] = {
+    // live
+    {2, "live --frames", "--frames needs a value"},
+    {2, "live --frames ten", "expected a whole number from 1 to 10000000, got 'ten'"},
+    {2, "live --size 1280", "--size: expected"},
+    {2, "live --theme pink", "--theme: expected"},
+    {2, "live --solver tree", "--solver: expected chain or band, got 'tree'"},
+    {2, "live --turns third", "--turns: expected"},
+    {2, BLIND "--screenshot x.png", "--no-draw: expected no --screenshot"},
+    {2, BLIND "--saves sub s.json", "--saves is for what a replay writes: expected --replay, too"},
+    {1, BLIND "none.json", "none.json: cannot be opened"},
+    {1, BLIND "three.bin", "three.bin"},
+    {1, BLIND "pipe.json", "pipe.json: expected a file, got something else"},
+    {1, BLIND "a.FBX",
+     "a.FBX: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it"},
+    {1, "live --no-draw --replay none.replay s.json", "none.replay"},
+    {1, "live --no-draw --replay hello.replay s.json", "hello.replay:1: expected \"wiggly-replay 1\", got \"hello\""},
+    {1, "live --no-draw --replay other.replay s.json", "recorded on another scene"},
+    {3, BLIND "--log no/live.csv", "no/live.csv"},
+    {3, BLIND "--log pipe.csv s.json", "pipe.csv: cannot be written: it is a pipe that nobody reads"},
+    {3, BLIND "--record pipe.csv s.json", "pipe.csv: cannot be written: it is a pipe that nobody reads"},
+    {3, BLIND "--result pipe.csv s.json", "pipe.csv: cannot be written: it is a pipe that nobody reads"},
+    {3, DRAWN "--screenshot pipe.csv s.json", "pipe.csv: cannot be written: it is a pipe that nobody reads"},
+    {2, "live --frames \x1b[31m", "got '\\x1b[31m'"}, // nothing of a terminal's own
+    // solve, check and log
+    {2, "solve", "scene.json"},
+    {2, "solve --\x1b[31m", "unknown option --\\x1b[31m"},
+    {2, "solve c.json --solver tree", "--solver: expected chain or band, got 'tree'"},
+    {2, "check a.json b.json", "'b.json'"},
+    {1, "solve missing.json", "missing.json"},
+    {1, "solve bad.json -o old.csv", "bad.json:1: "},
+    {3, "solve c.json -o no/out.csv", "no/out.csv"},
+    {3, "solve c.json -o full", "full: cannot be written: No space left on device"},
+    {3, "solve c.json -o pipe.csv", "it is a pipe that nobody reads"},
+    {0, "solve loose.json", "\"loose\": "},
+    {0, "check loose.json", "warning: "},
+    {0, "check pinned.json", "pinned.json: rigs[0].pins[0]: the point stays 9."},
+    {0, "check pinned.json", "splines[0].limits: ignored, because pins or a floor move this spline"},
+    {0, "solve pinned.json", "warning: rigs[0].pins[0]: the point stays 9."},
+    {0, "check sunk.json", "sunk.json: rigs[0].floor: knots and pins hold the character up to "},
+    {0, "check tests/vectors/loop_moving_equilibrium.json",
+     "the equilibrium of this loop does not end where it starts"},
+    {1, "check a.FBX",
+     "a.FBX: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it"},
+    {2, "log", "FILE.csv"},
+    {1, "log none.csv", "none.csv"},
+    {1, "log c.json", "c.json:1: expected a timing log's '# schema:' line first"},
+    // export
+    {2, "export s.json", "-o"},
+    {2, "export s.json -o x.fbx", ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .gif, .mp4, .webm or .png"},
+    {2, "export s.json -o x.glb --frames 24", "--frames"},
+    {2, "export s.json -o x.glb --fps 24 --substeps 2", "--substeps"},
+    {2, "export s.json -o x.glb --keys square", "--keys"},
+    {2, "export dog.json --all-clips --frames 1:9 -o x.glb", "--all-clips"},
+    {2, "export s.json -o x.mp4 --transparent", ".webm and .png have"},
+    {2, "export s.json -o %d-%d.png", "walk-%04d.png"},
+    {1, "export assets/scenes/character.json -o x.bvh", "export it as .glb, .gltf, .usda, .csv, .pc2, .mdd or .npy"},
+    {1, "export assets/scenes/figure1.json -o x.mp4 --loops 2", "nothing in this scene loops"},
+    {1, "export s.json -o x.mp4 --frames 0:500", "--frames"},
+    {1, "export s.json -o x.gif --fps 51", "expected at most 50 pictures a second in a .gif file, got 51"},
+    {3, "export s.json -o no/x.glb", "no/x.glb: cannot be written"},
+    {3, "export s.json --frames 0:1 --size 64x36 -o no/x.png", "no/x.png: cannot be written"},
+    {3, "export s.json --frames 0:1 --size 64x36 -o pipe.csv",
+     "expected a file, got something else (a device or a pipe)"},
+    {3, "export s.json --frames 0:1 --size 64x36 -o pipe.gif",
+     "expected a file, got something else (a device or a pipe)"},
+    // at the limit it is the folder that is wrong
+    {3, "export keys.json --fps 1111 -o no/x.csv", "no/x.csv: cannot be written"},
+    {1, "export keys.json --fps 1111.00002 -o no/x.csv", "at most 100000000 keys, got 100000001"},
+    {3, "export film.json --fps 239 -o no/x.mp4", ""},
+    {1, "export film.json --fps 239.00003 -o no/x.mp4", "at most 10000000 pictures, got 10000001"},
+    // rig
+    {1, "rig assets/models/creature.glb", "creature.glb: expected a character with bones, got a soft one"},
+    {1, "rig none.glb", "none.glb"},
+    {1, "rig cut.glb", "cut.glb"},
+    {1, "rig a.FBX", "a.FBX: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it"},
+    {1, "rig dog.glb --chain wing -o x.json", "expected a bone called \"wing\", got none"},
+    {1, "rig dog.glb --chain chest -o x.json", "\"chest\" branches into"},
+    {1, "rig dog.glb --clip Fly --chain tail_1 -o x.json", "expected a clip called \"Fly\""},
+    {2, "rig s.json", ""},
+    {2, "rig dog.glb --chain tail_1", "-o"},
+    {2, "rig dog.glb --chain tail_1 -o x.fbx", ".json"},
+    {2, "rig dog.glb --chain tail_1 --loop --once -o x.json", "--once"},
+    {2, "rig dog.glb --chain tail_1 --all-clips -o x.json", "--all-clips"},
+    {2, "rig dog.glb --chain tail_1 --all-clips -o x.usda", "x.usda: holds one clip: all clips need .glb or .gltf"},
+    {3, "rig dog.glb --chain tail_1 -o no/x.json", "no/x.json: cannot be written"},
+    // simulate
+    {2, "simulate box.obj --pin round -o x.npy", "--pin: expected a height, none, plane:"},
+    {1, "simulate box.obj --soft paper -o x.npy", "paper: cannot be opened"},
+    {1, "simulate box.obj --soft color " QUICK "-o x.npy", "--soft color: expected colours of vertices, got none"},
+    {1, "simulate bright.obj " QUICK "-o x.npy", "bright.obj:1: expected a colour from 0 to 1, got 1e+30"},
+    {1, "simulate box.obj --soft short.npy " QUICK "-o x.npy",
+     "short.npy: expected 8 numbers, got a file that ends before"},
+    {1, "simulate box.obj --soft long.npy " QUICK "-o x.npy",
+     "long.npy: expected an array of 8 numbers, one a vertex"},
+    {1, "simulate box.obj --soft huge.npy " QUICK "-o x.npy",
+     "huge.npy: expected an array of 8 numbers, one a vertex"},
+    {1, "simulate box.obj --soft wild.npy " QUICK "-o x.npy",
+     "wild.npy: vertex 7: expected a number from 0 to 1, got nan"},
+    {1, "simulate box.obj --soft above.npy " QUICK "-o x.npy",
+     "above.npy: vertex 0: expected a number from 0 to 1, got 2"},
+    {1, "simulate box.obj --soft below.npy " QUICK "-o x.npy",
+     "below.npy: vertex 7: expected a number from 0 to 1, got -0.5"},
+    {1, "simulate box.obj --soft endless.npy " QUICK "-o x.npy", "endless.npy: expected the header of an .npy array"},
+    {1, "simulate box.obj --soft header.npy " QUICK "-o x.npy", "header.npy: expected a header of 128 bytes, got 23"},
+    {1, "simulate box.obj --soft tiny.npy " QUICK "-o x.npy", "tiny.npy: expected a .npy file"},
+    {1, "simulate box.obj --soft box.obj " QUICK "-o x.npy", "box.obj: expected"},
+    {1, "simulate box.obj --soft nowhere.npy " QUICK "-o x.npy", "nowhere.npy: cannot be opened"},
+    {1, "simulate flag.obj --up z --thickness 0.1 " QUICK "-o x.npy",
+     "nothing can move: all of it is in the region of --pin"},
+    {1, "simulate flat.obj -o x.npy",
+     "flat.obj: the mesh has no clear inside: --thickness 0.03 makes it a sheet of 0.03 m"},
+    {1, "simulate far.obj --scale 1e9 " QUICK "-o x.npy",
+     "far.obj: expected a size that --scale keeps finite, got an infinite one"},
+    {1, "simulate nowhere.obj -o x.npy", "nowhere.obj"},
+    {1, "simulate box.obj --tets 60 --pin 9 -o x.npy", "nothing can move"},
+    {2, "simulate box.obj --up w -o x.npy", "--up: expected x, y or z"},
+    {2, "simulate box.obj --yuong 1 -o x.npy", "unknown option --yuong (did you mean --young?)"},
+    {2, "simulate box.obj --shake 0,0,0 -o x.npy", "--shake: expected up, side, front or a vector x,y,z"},
+    {2, "simulate box.obj --young 1e6 --frequency 2 -o x.npy", "--young and --frequency both set the stiffness"},
+    {2, "simulate box.obj --density 500 -o x.npy", "--density needs --young"},
+    {2, "simulate box.obj --drive none --world -o x.npy", "--drive-frequency and --world need a drive, got none"},
+    {2, "simulate box.obj --drive sine --impulse -o x.npy", "--impulse and a drive both start the motion"},
+    {2, "simulate box.obj --drive sine --pin none -o x.npy",
+     "--drive moves the pinned part, but --pin none pins nothing"},
+    {2, "simulate box.obj --drive bursts -o x.npy",
+     "--drive: expected burst, sine, sweep, a track's FILE.csv or none"},
+    {2, "simulate box.obj", "-o FILE is missing"},
+    {2, "simulate box.obj -o x.abc", "expected a name ending in .npy or .pc2"},
+    {2, "simulate box.obj --modal 2 -o x.pc2", "expected a name ending in .npy for --modal"},
+    {3, "simulate box.obj --tets 60 -o no/such/x.npy", "no/such/x.npy"},
+    {0, "simulate box.obj " QUICK "--soft map.npy -o y.npy", "y.npy: 6 frames of 8 vertices at 24 fps"},
+    {0, "simulate open.obj " QUICK "-o y.npy",
+     "open.obj: open at 3 edges: inside is where its winding number exceeds a half"},
+    // analyze
+    {2, "analyze found.npy --rest rest.obj -o x.glb", "give --fps N"},
+    {2, "analyze found.npy -o x.glb", "--rest mesh.obj is missing"},
+    {2, "analyze up.npy --pin round -o x.glb", "--pin: expected a height, none, plane:"},
+    {2, "analyze up.npy --shake sideways -o x.glb", "--shake: expected up, side, front"},
+    {2, "analyze up.npy --shake up:side -o x.glb", "--shake: expected up, side, front"},
+    {2, "analyze up.npy --method pca -o x.glb", "--method: expected poles or cpca"},
+    {2, "analyze up.npy --method cpca --from 1 -o x.glb", "--from has no effect with --method cpca"},
+    {2, "analyze --rest rest.obj -o x.glb", "an argument is missing"},
+    {2, "analyze up.npy --modes 9 -o x.glb", "--modes: expected a whole number from 1 to 8"},
+    {2, "analyze up.npy", "-o creature.glb is missing"},
+    {1, "analyze up.npy --pin sphere:9,9,9,1 -o x.glb", "no vertex is in the region of --pin"},
+    {1, "analyze broken.npy --rest rest.obj -o x.glb",
+     "broken.simulation.json: expected what wiggly simulate writes"},
+    {1, "analyze up.npy --from 1.8 -o x.glb", "up.npy: expected 8 frames or more after the drive stops, got 6"},
+    {1, "analyze up.npy --from 1e6 -o x.glb", "up.npy: expected 8 frames or more after the drive stops, got 0"},
+    {1, "analyze up.npy --rest four.obj -o x.glb", "expected 4 vertices as four.obj has, got 8"},
+    {1, "analyze cut.npy --rest rest.obj --fps 30 -o x.glb",
+     "cut.npy: expected 60 frames of 8 vertices, got a file that ends in frame 9"},
+    {1, "analyze rest.obj --rest rest.obj --fps 30 -o x.glb", "rest.obj: expected a motion (.npy, .pc2 or .mdd)"},
+    {1, "analyze none.npy --rest rest.obj --fps 30 -o x.glb", "none.npy: cannot be opened"},
+    {1, "analyze up.npy --rest up.npy -o x.glb", "up.npy: expected the text of an OBJ file, got binary data"},
+    {3, "analyze up.npy -o no/x.glb", "no/x.glb: cannot be written"},
+    // two outputs to one file
+    {2, BLIND "--log x --result x", "--log and --result: expected two files, got x for both"},
+    {2, BLIND "--result sub/../x --record ./x", "expected two files"},
+    {2, BLIND "--log link.csv --result there.csv", "expected two files"},
+    {2, BLIND "--log twin.csv --result there.csv", "expected two files"},
+    {2, "analyze x.npy --rest x.obj -o x --scene x", "expected two files"},
+    {2, "analyze x.npy --rest x.obj -o x --coordinates x", "expected two files"},
+    // what a command reads: its operands, the models that a scene names, what these name, and other input
+    {2, "solve s.json -o s.json", "--output: s.json: " OVER("scene.json")},
+    {2, "solve s.json -o sub/..//./s.json", OVER("scene.json")},
+    {2, "solve s.json -o here/s.json", OVER("scene.json")},
+    {2, "solve s.json -o soft.csv", OVER("scene.json")},
+    {2, "solve s.json -o hard.csv", OVER("scene.json")},
+    {2, "solve dog.json -o dog.glb", "dog.glb: " OVER("a model of the scene")},
+    {2, "live --no-draw --replay r.replay --record r.replay s.json", OVER("--replay")},
+    {2, DRAWN "--frames-dir sub shots.json", "frame_00000.png: " OVER("")},
+    {2, "export dog.json -o dog.glb", "dog.glb: " OVER("a model of the scene")},
+    {2, "export dog.json -o walk.glb", "walk.glb: cannot be written"},
+    {2, "export dog.glb -o dog.glb", OVER("scene.json")},
+    {2, "export odd.json --frames 0:1 --size 64x36 -o w.png", "w-0002.png: cannot be written"},
+    {2, "rig dog.glb --chain tail_1:tail_8 -o dog.glb", OVER("character.glb")},
+    {2, "simulate cube.rest.obj " QUICK "-o cube.npy", "cube.rest.obj: " OVER("MESH")},
+    {2, "simulate rest.obj --tets 60 --seconds 2 --substeps 1 --soft map.npy -o map.npy",
+     "map.npy: " OVER("map.npy")},
+    {2, "analyze up.npy --rest rest.obj -o rest.obj", OVER("--rest")},
+    {2, "analyze up.npy -o x.glb --scene up.rest.obj", "up.rest.obj: cannot be written"},
+    {2, "analyze up.npy --rest rest.obj -o up.npy", OVER("up.npy")},
+    // but other files, and a new name
+    {0, "export dog.json -o other.glb", ""},
+    {0, "export dog.json -o other.glb", ""},
+    {0, "live --no-draw --replay r.replay --record new.replay s.json", ""},
+};
+
+TEST(rows_of_commands)
+{
+    char line[LINE];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_command(rows[i].status, rows[i].line, rows[i].says);
+    snprintf(line, sizeof line, "simulate box.obj --pin 0.%0130d -o x.npy", 1);
+    assert_command(2, line, "--pin: expected fewer than 128 characters");
+    command_run("analyze up.npy -o y.glb --coordinates no/y.csv"); // the character is there by then
+    assert_int_equal(command.status, 3);
+    assert_non_null(strstr(command.err, "no/y.csv: cannot be written"));
+}
+
+/// Each file that the live app writes over each that it reads.
+TEST(outputs_of_live_over_its_input)
+{
+    static const char *const options[] = {"--log", "--record", "--result", "--screenshot"};
+    static const char *const inputs[][2] = {
+        {"s.json", "s.json"}, {"dog.glb", "dog.json"}, {"three.bin", "three.json"}};
+    for (int i = 0; i < 4 * 3; i++) {
+        const char *option = options[i % 4], *const *input = inputs[i / 4];
+        char line[128], says[128];
+        snprintf(line, sizeof line, "live --%s --frames 2 %s %s %s", i % 4 == 3 ? "headless" : "no-draw", option,
+                 input[0], input[1]);
+        snprintf(says, sizeof says, "%s: " OVER("%s"), input[0], i / 4 == 0 ? "scene.json" : "");
+        assert_command(2, line, says);
+    }
+}
+
+/// `wiggly check` says every problem; the scenes of the tree have none.
+TEST(checks_of_scenes)
+{
+    command_run("check bad.json");
+    assert_int_equal(command.status, 1);
+    assert_non_null(strstr(command.out, "bad.json:2: splines[0].name: expected a string, got a number\n"));
+    int lines = 0;
+    for (const char *c = command.out; *c; c++) lines += *c == '\n';
+    assert_int_equal(lines, 3);
+    command_run("check sub"); // a folder
+    assert_int_equal(command.status, 1);
+}
