@@ -9,8 +9,8 @@ at_end() { kill $app $server 2>/dev/null; wait 2>/dev/null; }
 eventually() { # <what> <command>...
     local what=$1 tries
     shift
-    for tries in $(seq 600); do "$@" && break; sleep 0.1; done
-    ok "$what" $((tries == 600))
+    for tries in $(seq 1200); do "$@" && break; sleep 0.05; done
+    ok "$what" $((tries == 1200))
 }
 
 stop_server() {
@@ -28,22 +28,24 @@ start_server() { # <Xvfb's options>...
     export DISPLAY=:$(cat "$scratch/display")
 }
 
-# Starts the app and waits for a window with that title, which it has once the scene is open; the pointer is over the curves.
+opened() { xdotool search --onlyvisible --name "$1" >/dev/null 2>&1; } # <title>; its own --sync looks every half a second
+
+# Starts the app and waits for a window with that title, which it has once the scene is open; the pointer is over the curves. The window
+# is small and still, because the processor draws it, unless $window says how large.
 start_app() { # <title> [argument]...
     local title=$1
     shift
-    "$WIGGLY" live "$@" >"$scratch/app.out" 2>"$scratch/app.err" &
+    "$WIGGLY" live --size ${window:-640x400} --stage-scale 0.25 --still "$@" >"$scratch/app.out" 2>"$scratch/app.err" &
     app=$!
-    timeout 60 xdotool search --sync --onlyvisible --name "$title" >/dev/null
-    ok "a window opens: $title" $?
-    xdotool mousemove 500 560
+    eventually "a window opens: $title" opened "$title"
+    xdotool mousemove 250 330
 }
 
 # Waits for the app's own end; its exit status is in $status.
 await_end() {
     local tries
-    for tries in $(seq 600); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
-    [ "$tries" -lt 600 ] || kill $app
+    for tries in $(seq 1200); do kill -0 $app 2>/dev/null || break; sleep 0.05; done
+    [ "$tries" -lt 1200 ] || kill $app
     status=0
     wait $app || status=$?
     app=""

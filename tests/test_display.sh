@@ -4,7 +4,7 @@
 
 falls_back() { # <what>
     rm -f "$scratch/picture.png"
-    expect 0 "$1: the app runs all the same" timeout 60 "$WIGGLY" live --frames 20 --screenshot "$scratch/picture.png"
+    expect 0 "$1: the app runs all the same" timeout 60 "$WIGGLY" live --frames 5 --size 640x400 --screenshot "$scratch/picture.png"
     holds "$1: and draws" [ -s "$scratch/picture.png" ]
     holds "$1: it says so in one line" [ "$(printf '%s\n' "$err" | grep -c '^wiggly')" = 1 ]
     says "$1: which tells what it does" "running headless" "$err"
@@ -22,14 +22,14 @@ entry >"$scratch/cookies"
 kill -HUP $server
 export XAUTHORITY=$scratch/none
 falls_back "a display that wants a cookie"
-XAUTHORITY=$scratch/cookies expect 0 "with the cookie it opens" timeout 60 "$WIGGLY" live --frames 20
+XAUTHORITY=$scratch/cookies expect 0 "with the cookie it opens" timeout 60 "$WIGGLY" live --frames 5 --size 640x400
 holds "in a window" silent "$err"
 stop_server
 unset XAUTHORITY
 
 # As through ssh -X, where no socket of this machine answers.
 start_server -listen tcp -nolisten unix -nolisten local -ac
-DISPLAY=127.0.0.1$DISPLAY expect 0 "a display of another host opens" timeout 60 "$WIGGLY" live --frames 20
+DISPLAY=127.0.0.1$DISPLAY expect 0 "a display of another host opens" timeout 60 "$WIGGLY" live --frames 5 --size 640x400
 holds "in a window, too" silent "$err"
 stop_server
 

@@ -48,7 +48,7 @@ END
 
 # In Greek the key of Q has a semicolon on it.
 strike ctrl+24
-for _ in $(seq 600); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
+for _ in $(seq 1200); do kill -0 $app 2>/dev/null || break; sleep 0.05; done
 if kill -0 $app 2>/dev/null; then
     ok "gr: Ctrl+Q quits" 1
 else

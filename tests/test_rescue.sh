@@ -6,9 +6,8 @@
 start_edited() {
     cp assets/scenes/tail.json "$scratch/mine.json"
     start_app mine.json "$scratch/mine.json" --record "$scratch/mine.replay"
-    xdotool key --delay 30 space Home shift+Left Right Right Right i
-    timeout 60 xdotool search --sync --onlyvisible --name '^\*mine.json' >/dev/null
-    ok "the title shows unsaved work" $?
+    xdotool key --delay 30 Home shift+Left Right Right Right i
+    eventually "the title shows unsaved work" opened '^\*mine.json'
 }
 
 knots() { grep -o '"frame":' "$1" | wc -l; }

@@ -1,6 +1,7 @@
 # Two running programs: on one scene's file, with one settings file and one folder of recovery files.
 . tests/check.sh
 . tests/desktop.sh
+window=1280x720 # room for larger text
 first=""
 second=""
 at_end() { kill $app $first $second $server 2>/dev/null; wait 2>/dev/null; }
@@ -22,10 +23,10 @@ titled() { xdotool getwindowname "$(window_of "$1")" 2>/dev/null | grep -q "$2";
 start_both() {
     start_app "^mine.json" "$mine"
     first=$app
-    "$WIGGLY" live "$mine" >"$scratch/second.out" 2>"$scratch/second.err" &
+    "$WIGGLY" live --size $window --stage-scale 0.25 --still "$mine" >"$scratch/second.out" 2>"$scratch/second.err" &
     second=$!
-    opened() { titled $second '^mine.json'; }
-    eventually "and another" opened
+    both_open() { titled $second '^mine.json'; }
+    eventually "and another" both_open
 }
 
 end_both() {
@@ -37,7 +38,7 @@ end_both() {
 }
 
 edit() { # <pid> <keys that go to a frame without a knot>
-    to "$1" Escape space Home "${@:2}" i
+    to "$1" Escape Home "${@:2}" i
     edited() { titled $edits '^\*mine.json'; }
     edits=$1
     eventually "an edit that is not saved" edited
@@ -92,7 +93,7 @@ xdotool key r
 recovered() { titled $app '^\*mine.json'; }
 eventually "after both were killed the next start offers one of the two" recovered
 first=$app
-"$WIGGLY" live >/dev/null 2>"$scratch/second.err" &
+"$WIGGLY" live --size $window --stage-scale 0.25 --still >/dev/null 2>"$scratch/second.err" &
 second=$!
 app=$second
 shown() { [ -n "$(window_of $second)" ]; }
