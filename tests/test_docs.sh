@@ -17,6 +17,7 @@ unset DISPLAY WAYLAND_DISPLAY
 
 # --- what a command line finds, and how it is cut short where it would last
 
+make=$(command -v make)
 mkdir "$scratch/bin" "$scratch/place" "$scratch/place/build"
 make BORROWED=yes B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
 ok "make install" $?
@@ -31,25 +32,26 @@ if [[ " \$* " =~ ^\ export\ .*\.(mp4|webm|gif|png)\  ]]; then
 fi
 # The live app lasts until somebody quits it: ten small frames do. A simulation takes 10 s: a coarse, short one does.
 case \${1-live} in
-simulate) set -- "\$@" --tets 300 --seconds 2 ;;
+simulate) set -- "\$@" --tets 300 --seconds 2 --substeps 1 ;;
 solve | rig | export | check | analyze | log | -*) ;;
 *)
     [[ " \$* " == *" --frames "* || " \$* " == *" --replay "* ]] || set -- "\$@" --frames 10
-    [[ " \$* " == *" --replay "* ]] || set -- "\$@" --size 480x320
+    [[ " \$* " == *" --replay "* ]] || set -- "\$@" --size 320x320 --scale 0.5
     ;;
 esac
 exec "$build/wiggly" "\$@"
 END
 cat >"$scratch/bin/make" <<END
 #!/bin/bash
-# These two are made, but for the dog, which takes a while and nothing here needs. Of the others it is enough that there is something to do: test is this suite, run and install have tests of
-# their own, bench and regress take minutes, check installs packages, and clean would take the build away.
+# These two are made, but for the dog, which takes a while and nothing here needs. Of the others it is enough that there is something to do,
+# which is asked for all at once: test is this suite, run and install have tests of their own, bench and regress take minutes, check
+# installs packages, and clean would take the build away.
 case \$1 in
 models) set -- "$(thorough && echo models || echo "$B/models/creature.obj")" ;;
 figures) ;;
-*) set -- -n "\$@" ;;
+*) printf '%s\n' "\$@" >>"$scratch/goals"; exit ;;
 esac
-exec $(command -v make) --no-print-directory -C "$root" B="$B" SANITIZE="${SANITIZE:-}" "\$@"
+exec $make --no-print-directory -C "$root" B="$B" SANITIZE="${SANITIZE:-}" "\$@"
 END
 cat >"$scratch/bin/timing_diff" <<END
 #!/bin/bash
@@ -165,9 +167,13 @@ unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep
 holds "every command that is named is there" [ -z "$unknown" ]
 
 # shellcheck disable=SC2086
-while read -r line; do
-    expect 0 "$line: something to do" bash -c "${line/#make/make -n}"
-done < <(grep -ohE '`make [^`]*`' $documents | tr -d '`' | sort -u)
+while read -r line; do bash -c "$line"; done < <(grep -ohE '`make [^`]*`' $documents | tr -d '`' | grep -vE 'make (models|figures)' | sort -u)
+mapfile -t goals < <(sort -u "$scratch/goals")
+# shellcheck disable=SC2046
+expect 0 "there is something to do for: ${goals[*]}" "$make" --no-print-directory -n B="$B" $(printf '%s\n' "${goals[@]}" | grep -v =)
+missing=$(printf '%s\n' "${goals[@]}" | sed -n 's/^TESTS=//p' | tr ' ' '\n' | while read -r test; do [ -e "$test" ] || echo "$test"; done)
+variables=$(printf '%s\n' "${goals[@]}" | sed -n 's/=.*//p' | while read -r name; do grep -qE "\b$name\b" Makefile tools/*.mk tools/*.sh || echo "$name"; done)
+holds "and each test and variable is there" [ -z "$missing$variables" ]
 
 for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
     missing=$(

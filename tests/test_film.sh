@@ -87,7 +87,7 @@ chmod +x "$scratch"/*/ffmpeg
 expect 3 "if ffmpeg gives up there is none either" env PATH="$scratch/dying:$PATH" "$WIGGLY" export $tail -o "$scratch/out/walk.mp4" $small
 says "in its own words" "ffmpeg cannot write it: no room for this film" "$err"
 echo old >"$scratch/out/walk.mp4"
-PATH="$scratch/slow:$PATH" "$WIGGLY" export $tail -o "$scratch/out/walk.mp4" 2>"$scratch/stderr" &
+PATH="$scratch/slow:$PATH" "$WIGGLY" export $tail --size 640x360 -o "$scratch/out/walk.mp4" 2>"$scratch/stderr" &
 program=$!
 until find "$scratch/out" -name '.wiggly*' -size +0 | grep -q . || ! kill -0 $program 2>/dev/null; do sleep 0.05; done
 kill -TERM $program
@@ -96,7 +96,7 @@ wait $program || status=$?
 is "a film that is interrupted ends at once" 3 $status
 holds "without waiting for ffmpeg" [ ! -e "$scratch/late" ]
 is "and leaves what was there before" "walk.mp4 old" "$(ls -A "$scratch/out") $(cat "$scratch/out/walk.mp4")"
-"$WIGGLY" export $tail -o "$scratch/out/walk.png" 2>"$scratch/stderr" &
+"$WIGGLY" export $tail --fps 2400 --size 640x360 -o "$scratch/out/walk.png" 2>"$scratch/stderr" &
 program=$!
 until find "$scratch/out" -name 2.png | grep -q . || ! kill -0 $program 2>/dev/null; do sleep 0.05; done
 kill -TERM $program

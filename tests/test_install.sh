@@ -131,6 +131,7 @@ CMAKE
     done
     sed -i "s|^find_package.*|add_subdirectory($PWD wiggly)|; s/wiggly::static/wiggly::wiggly/; s|../version.c|$PWD/examples/curve.c|" "$scratch/project/CMakeLists.txt"
     expect 0 "a project takes the sources as its subdirectory" configure 0 -DBUILD_SHARED_LIBS=ON -DCMAKE_BUILD_TYPE=Debug
+    thorough || exit $cases_failed
     expect 0 "and builds" env -u MAKEFLAGS cmake --build "$scratch/made"
     holds "the same bits" [ "$("$scratch/made/shared")" = "$(LD_LIBRARY_PATH=$root/lib "$scratch/curve")" ]
     if command -v x86_64-w64-mingw32-gcc >/dev/null; then

@@ -38,8 +38,8 @@ says "says what is missing" "descriptors 3 and 4" "$err"
 
 "$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "skip - nothing is drawn here"; exit 0; }
 mkfifo "$scratch/to-a" "$scratch/to-b"
-"$WIGGLY" live --headless --frames 30 --log "$scratch/turns-a.csv" --turns first 3<"$scratch/to-a" 4>"$scratch/to-b" >/dev/null &
-timeout 60 "$WIGGLY" live --headless --frames 40 --log "$scratch/turns-b.csv" --turns second 4>"$scratch/to-a" 3<"$scratch/to-b" >/dev/null
+"$WIGGLY" live --headless --size 320x320 --frames 30 --log "$scratch/turns-a.csv" --turns first 3<"$scratch/to-a" 4>"$scratch/to-b" >/dev/null &
+timeout 60 "$WIGGLY" live --headless --size 320x320 --frames 40 --log "$scratch/turns-b.csv" --turns second 4>"$scratch/to-a" 3<"$scratch/to-b" >/dev/null
 ok "the program that goes on is not held up when the other one has ended" $?
 holds "which ended well" wait $!
 [ "$(grep -c '^[0-9]' "$scratch/turns-a.csv")" -eq 30 ] && [ "$(grep -c '^[0-9]' "$scratch/turns-b.csv")" -eq 40 ]

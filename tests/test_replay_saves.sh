@@ -41,7 +41,7 @@ type_over() { # <text>
 cp -r "$scratch/scenes" "$scratch/victims" "$(mkdir "$scratch/before" && echo "$scratch/before")"
 untouched() { diff -r "$scratch/before/scenes" "$scratch/scenes" && diff -r "$scratch/before/victims" "$scratch/victims"; }
 program=$(realpath "$WIGGLY")
-play() { (cd "$scratch/scenes" && "$program" live --headless --replay ../all.replay "$@" scene.json); }
+play() { (cd "$scratch/scenes" && "$program" live ${draw:---headless} --replay ../all.replay "$@" scene.json); }
 
 expect 0 "a replay that saves, exports and takes a picture" play --result "$scratch/nowhere.json"
 holds "writes nothing" untouched
@@ -57,7 +57,7 @@ knots() { grep -o '"frame":' "$1" | wc -l; }
 holds "with the knot that it made" [ "$(knots "$scratch/saves/package.json")" -gt "$(knots "$scene")" ]
 expect 0 "which is whole" "$WIGGLY" check "$scratch/saves/package.json"
 holds "and goes on as without" cmp "$scratch/nowhere.json" "$scratch/somewhere.json"
-expect 0 "a folder with the scene itself" play --saves .
+draw=--no-draw expect 0 "a folder with the scene itself" play --saves .
 holds "keeps the scene" cmp "$scratch/before/scenes/scene.json" "$scene"
 expect 2 "--saves without a replay" "$WIGGLY" live --no-draw --frames 2 --saves "$scratch/saves" "$scene"
 says "is refused" "--saves is for what a replay writes: expected --replay, too" "$err"

@@ -6,9 +6,9 @@ scene=assets/scenes/tail.json
 
 # --- a locale whose decimal sign is a comma
 
-german() { LOCPATH=$scratch/locales LC_ALL=de_DE.UTF-8 "$@"; }
-mkdir "$scratch/locales"
-localedef -i de_DE -f UTF-8 "$scratch/locales/de_DE.UTF-8" 2>/dev/null
+german() { LOCPATH=$B/locales LC_ALL=de_DE.UTF-8 "$@"; }
+mkdir -p "$B/locales" # where the next run finds it
+[ -d "$B/locales/de_DE.UTF-8" ] || { localedef -i de_DE -f UTF-8 "$scratch/de_DE.UTF-8" 2>/dev/null && mv "$scratch/de_DE.UTF-8" "$B/locales"; }
 if [ "$(german bash -c 'printf %.1f 1,5' 2>/dev/null)" = "1,5" ]; then
     for name in tail figure4 follow; do
         "$WIGGLY" solve assets/scenes/$name.json -o "$scratch/plain.csv"
@@ -20,8 +20,8 @@ if [ "$(german bash -c 'printf %.1f 1,5' 2>/dev/null)" = "1,5" ]; then
         german "$WIGGLY" export $scene -o "$scratch/tail.$ending" --quiet && cmp "$scratch/plain" "$scratch/tail.$ending"
         ok "decimal commas: .$ending is written as elsewhere" $?
     done
-    replayed() { "$WIGGLY" live tests/replays/session.json --no-draw --replay tests/replays/session.replay --result "$1"; }
-    export -f replayed
+    replayed() { "$WIGGLY" live tests/replays/session.json --no-draw --replay tests/replays/session.replay $(quickly --frames 300) --result "$1"; }
+    export -f replayed quickly thorough
     export WIGGLY
     replayed "$scratch/plain.json" >/dev/null
     german bash -c 'replayed "$0"' "$scratch/german.json" >/dev/null && cmp "$scratch/plain.json" "$scratch/german.json"
