@@ -1,7 +1,6 @@
 /// Steps of edits: every one can be taken back and done again.
 
-#include "starve.h"
-#include "timing/framelog.h"
+#include "invariants.h"
 #include "world.h"
 
 /// A drag re-applies its edits from the same state each frame, gives an inserted knot the same id again, and is one
@@ -126,62 +125,108 @@ WORLD_TEST(test_revision, world_open(world))
 
 static double random_number(void) { return (double)(rand() % 2001 - 1000) / 128; }
 
-static void edit_random_knot(struct world *world)
+/// One of so many, or of none the first.
+static int any(int count) { return rand() % (count > 0 ? count : 1); }
+
+static bool edit_random_knot(struct world *world, int spline)
 {
-    int spline = rand() % 3, count = world->document->splines[spline]->knot_count;
-    int at = count > 0 ? rand() % count : 0;
-    double frame = (double)(rand() % 450 - 30) / 8;
-    if (count == 0 || rand() % 3 == 0) {
-        edit_insert(world, spline, frame, random_number());
-        return;
-    }
-    struct knot knot = world->document->splines[spline]->knots[at];
+    struct document *document = world->document;
+    const double frame = (double)(rand() % 450 - 30) / 8;
+    if (spline >= document->spline_count || document->splines[spline]->knot_count == 0 || rand() % 3 == 0)
+        return edit_insert(world, spline, frame, random_number());
+    struct knot knot = document->splines[spline]->knots[any(document->splines[spline]->knot_count)];
+    if (rand() % 4 == 0) return edit_knot_remove(document, spline, knot.id, &world->error);
     if (rand() % 2) knot.frame = frame;
     knot.value = random_number();
     knot.has_slope = rand() % 2;
     knot.slope = random_number();
     knot.stiffness = fabs(random_number());
-    if (rand() % 4 == 0) {
-        edit_knot_remove(world->document, spline, knot.id, &world->error);
-    } else {
-        edit_knot_set(world->document, spline, &knot, &world->error);
-    }
+    return edit_knot_set(document, spline, &knot, &world->error);
 }
 
-static struct angles random_angles(void)
+static bool edit_random_parameter(struct world *world, int spline)
 {
+    enum parameter parameter = (enum parameter)(rand() % PARAMETER_COUNT);
+    struct param param = {.value = rand() % 2 ? fabs(random_number()) : 0.5, .track = rand() % 6 - 3};
+    if (rand() % 3 == 0) {
+        parameter = rand() % 2 ? PARAMETER_MODE : PARAMETER_START;
+        param = param_number(rand() % 3);
+    }
+    return edit_parameter(world->document, spline, parameter, &param, &world->error);
+}
+
+static bool edit_random_pin(struct world *world, int rig)
+{
+    struct document *document = world->document;
+    struct pin pin = {.frame = rand() % 49, .point = rand() % 6, .to = {random_number(), 1, 0}};
+    const int count = rig < document->rig_count ? document->rigs[rig]->pin_count : 0;
+    if (count == 0 || rand() % 3 == 0) return edit_pin_add(document, rig, &pin, &world->error);
+    pin.id = document->rigs[rig]->pins[any(count)].id;
+    if (rand() % 3 == 0) return edit_pin_remove(document, rig, pin.id, &world->error);
+    return edit_pin_set(document, rig, &pin, &world->error);
+}
+
+static bool edit_random_rig(struct world *world, int rig)
+{
+    static const char *const names[] = {"a", "b", "c d", "t"};
+    struct document *document = world->document;
+    struct error *error = &world->error;
+    const struct channel_place at = {rig, rand() % 4 - 1};
+    const int spline = any(document->spline_count);
     struct angles angles = {.form = (enum angle_form)(rand() % 3), .count = 3};
     for (int i = 0; i < 3; i++) {
         if (angles.form == ANGLES_RAMP) angles.ramp[i].at = i / 2.0;
         angles_set_number(&angles, i, random_number());
     }
-    return angles;
+    switch (rand() % 10) {
+    case 0:
+        return edit_tail_add(document, any(document->rig_count + 1) - 1, spline, error);
+    case 1:
+        return edit_rig_remove(document, rig, error);
+    case 2:
+        return edit_rig_name(document, rig, names[rand() % 4], error);
+    case 3:
+        return edit_joints(document, rig, rand() % 30, error);
+    case 4:
+        return edit_channel_add(document, rig, spline, (enum axis)(rand() % 3), (enum channel_part)(rand() % 2),
+                                error);
+    case 5:
+        return edit_channel_remove(document, at, error);
+    case 6:
+        return rig < document->rig_count && edit_bend(world, rig, rand() % 3, -1, rand() % 2, -1);
+    case 7:
+        return edit_random_pin(world, rig);
+    default:
+        return edit_angles(document, at, (enum angle_kind)(rand() % 3), &angles, error);
+    }
 }
 
-static void edit_random_setting(struct world *world)
+static bool edit_random_spline(struct world *world, int spline)
 {
+    static const char *const names[] = {"a", "b", "c d", "e 2", "sway"};
     struct document *document = world->document;
-    const struct channel_place at = {0, rand() % 3 - 1};
-    const struct angles angles = random_angles();
-    enum parameter parameter = (enum parameter)(rand() % PARAMETER_COUNT);
-    struct param param = {.value = rand() % 2 ? fabs(random_number()) : 0.5, .track = rand() % 6 - 3};
-    if (rand() % 2) {
-        parameter = rand() % 2 ? PARAMETER_MODE : PARAMETER_START;
-        param = param_number(rand() % 3);
-    }
-    switch (rand() % 7) {
+    struct error *error = &world->error;
+    const int other = rand() % 8;
+    const struct knot first = {.frame = other};
+    switch (rand() % 9) {
     case 0:
-        edit_frames(world, -(rand() % 20), 40 + rand() % 20);
-        break;
+        return edit_spline_add(document, other, NULL, other > 2 ? &first : NULL, error);
     case 1:
-        edit_angles(document, at, (enum angle_kind)(rand() % 3), &angles, &world->error);
-        break;
+        return edit_spline_copy(document, spline, error);
     case 2:
-        edit_bend(world, 0, at.channel < 0 ? 2 : at.channel, -1, rand() % 2, -1);
-        break;
+        return edit_spline_remove(document, spline, error);
+    case 3:
+        return edit_spline_move(document, spline, other, error);
+    case 4:
+        return edit_spline_name(document, spline, names[other % 5], error);
+    case 5:
+        return edit_spline_color(document, spline, other - 1, error);
+    case 6:
+        return edit_fps(document, 12 + 6 * other, other % 2, error);
+    case 7:
+        return edit_substeps(document, 1 + other % 3, error);
     default:
-        edit_parameter(document, rand() % 3, parameter, &param, &world->error);
-        break;
+        return edit_range(document, other - 4, 20 + 8 * other, (enum range_fit)(rand() % 3), error);
     }
 }
 
@@ -190,11 +235,11 @@ static void random_step(struct world *world)
 {
     history_begin(world->history, "Random", (uint64_t)(rand() % 3));
     for (int i = rand() % 4; i >= 0; i--) {
-        if (rand() % 2) {
-            edit_random_knot(world);
-        } else {
-            edit_random_setting(world);
-        }
+        const int kind = rand() % 8, spline = any(world->document->spline_count);
+        if (kind == 0) edit_random_rig(world, any(world->document->rig_count));
+        if (kind == 1) edit_random_spline(world, spline);
+        if (kind == 2 || kind == 3) edit_random_parameter(world, spline);
+        if (kind > 3) edit_random_knot(world, spline);
         if (rand() % 8 == 0) history_restart(world->history);
     }
     history_end(world->history);
@@ -202,17 +247,18 @@ static void random_step(struct world *world)
     for (int i = rand() % 6 - 3; i > 0; i--) history_redo(world->history);
 }
 
-/// Whatever was done: undo all gives the first document byte by byte, redo all the last; all between can be saved and
-/// loaded.
+/// Whatever was done with splines, knots, rigs and timing: undo all gives the first document byte by byte, redo all the last; all between
+/// holds what every document does, and loads as it is saved.
 TEST(test_random_walks)
 {
-    for (unsigned seed = 1; seed <= 12; seed++) {
+    for (unsigned seed = 1; seed <= 24; seed++) {
         struct world world;
         srand(seed);
         world_open(&world);
         const char *first = world_print(&world);
         for (int i = 0; i < 300; i++) {
             random_step(&world);
+            assert_invariants(world.document);
             if (i % 10 == 0) assert_loads_again(world.document);
         }
         while (history_redo(world.history)) continue;
