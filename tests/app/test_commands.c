@@ -416,11 +416,68 @@ static const struct row {
     {2, "analyze up.npy --rest rest.obj -o rest.obj", OVER("--rest")},
     {2, "analyze up.npy -o x.glb --scene up.rest.obj", "up.rest.obj: cannot be written"},
     {2, "analyze up.npy --rest rest.obj -o up.npy", OVER("up.npy")},
+    // what is made, which the next row may read
+    {0, "export s.json -o TAIL.GLB", "TAIL.GLB: 24 joints, 121 keys, 6"},
+    {0, "export s.json -o t.csv --fps 7.3", "warning: the last key is on frame 118.356"},
+    {0, "export s.json -o t.csv --frames 24:48 --substeps 2", "49 rows"},
+    {0, "export dog.json -o dog.usda --substeps 1", "97 keys, 1 texture in dog_textures, "},
+    {0, "export assets/scenes/character.json -o soft.glb --frames 0:4", " morph targets, 5 keys"},
+    {0, "rig dog.glb", "Walk (1 s, loops)"},
+    {0, "rig dog.glb", "          tail_3"}, // under its parent
+    {0, "rig dog.glb", "chains you can use with --chain:\n"},
+    {0, "rig dog.glb", "  tail_1:tail_8 (8 bones)"},
+    {0, "check dog.glb", "dog.glb: a glTF character of 19816 triangles and 43 joints"},
+    {0, "check dog.glb", "Trot (0.583 s, loops)"},
+    {0, "check dog.glb", "  ear_1_L:ear_4_L (4 bones)"},
+    {0, "rig dog.glb --chain tail_1:tail_8 --chain ear_1_L -c ear_1_R -o d.json", "wrote d.json: 3 chains"},
+    {0, "check d.json", ""},
+    {0, "rig dog.glb --chain tail_1 --clip Trot -o trot.glb", "wrote trot.glb"},
+    {0, "rig trot.glb", "Trot (0.583 s, loops)"},
+    {0, "rig dog.glb --chain tail_1 --all-clips -o all.glb", "8 bones bent by chains in 3 clips, 161 keys"},
+    {0, "rig all.glb", "  Walk (1 s, loops)\n  Trot (0.583 s, loops)\n  Idle (5 s, loops)"},
+    {0, "rig dog.glb --chain tail_1 --once -o once.json", "1 chain; clip Walk plays once"},
+    {0, "rig dog.glb --chain tail_1 --loop -o loop.glb", "clip Walk loops"},
     // but other files, and a new name
     {0, "export dog.json -o other.glb", ""},
     {0, "export dog.json -o other.glb", ""},
     {0, "live --no-draw --replay r.replay --record new.replay s.json", ""},
 };
+
+/// What a file that is made has, and what it lacks.
+TEST(what_commands_write)
+{
+    static const struct {
+        const char *line, *file, *has, *lacks;
+    } made[] = {
+        {"export s.json -o t.gltf", "t.gltf", "\"name\": \"s\"", "tail.json"}, // the clip's name is the scene's
+        {"rig dog.glb --chain tail_1:tail_8 --frequency 2 -o d.json", "d.json", "\"frequency\": 2,", "\"once\""},
+        {"rig dog.glb --chain tail_1 --once -o once.json", "once.json", "\"repeat\": \"once\"",
+         "\"start\": \"loop\""},
+        {"rig dog.glb --chain tail_1 --plain -o plain.json", "plain.json", "\"tail_1\"", "\"joint\""},
+        // two ears share a spline for each axis, or have their own
+        {"rig dog.glb --chain ear_1_L --chain ear_1_R -o e.json", "e.json", "\"ear_1_L side\"", "\"ear_1_R side\""},
+        {"rig dog.glb --chain ear_1_L --chain ear_1_R --own-splines -o e.json", "e.json", "\"ear_1_R side\"",
+         "\"x\""},
+    };
+    for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
+        char *text;
+        size_t size;
+        assert_command(0, made[i].line, "wrote");
+        assert_done(file_read(folder_path(made[i].file), 1 << 24, &text, &size, &error));
+        if (!strstr(text, made[i].has)) fail_msg("%s lacks %s", made[i].line, made[i].has);
+        if (strstr(text, made[i].lacks)) fail_msg("%s has %s", made[i].line, made[i].lacks);
+        free(text);
+    }
+    static const char *const endings[] = {"glb", "gltf", "usda", "bvh", "csv", "pc2", "mdd", "npy"};
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        char line[64], says[64];
+        snprintf(line, sizeof line, "export s.json -o tail.%s", endings[i]);
+        snprintf(says, sizeof says, "wrote tail.%s: ", endings[i]);
+        assert_command(0, line, says);
+    }
+    assert_command(0, "export s.json -o tail.csv --quiet", "");
+    assert_true(!command.out[0] && !command.err[0]);
+}
 
 TEST(rows_of_commands)
 {
