@@ -29,7 +29,7 @@ expect 0 "the full session plays" play tests/replays/full.replay tests/replays/f
 holds "nor does one with everything shown" [ "$(wasteful "$scratch/full.csv")" -eq 0 ]
 drawn() { "$WIGGLY" live --headless --scale 0.5 --replay tests/replays/full.replay --log "$scratch/drawn.csv" "$@" tests/replays/full.json; }
 if "$WIGGLY" live --headless --frames 1 >/dev/null 2>&1; then
-    expect 0 "the full session is drawn" drawn $(quickly --frames 120)
+    expect 0 "the full session is drawn" drawn $(quickly --frames 70)
     holds "nor does drawing it" [ "$(wasteful "$scratch/drawn.csv")" -eq 0 ]
 else
     echo "skip - nothing is drawn here"

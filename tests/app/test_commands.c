@@ -1,7 +1,7 @@
 /// What commands say and refuse, a row for each: options, what they read, what they would write over.
 #include "command.h"
 
-#include <fcntl.h>
+#include <dirent.h>
 
 enum { LINE = 4096 };
 
@@ -56,6 +56,12 @@ static const struct {
     {"film.json", LONG("41841")},
     {"bad.json", "{\"frames\": [9, 0], \"fps\": -1,\n\"splines\": [{\"name\": 3}]}"},
     {"c.json", "{\"frames\": [0, 9], \"splines\": [{\"name\": \"s\", \"knots\": [{\"frame\": 0, \"value\": 1}]}]}"},
+    {"none.json", "{\"frames\": [0, 1]}"},
+    {"names.json", // frames before zero and between frames, few digits and many
+     "{\"frames\": [-1, 0], \"substeps\": 3, \"splines\": [{\"name\": \"a,b\", \"mode\": \"cubic\", \"knots\": "
+     "[{\"frame\": 0, \"value\": 0.1}]}, {\"name\": \"say \\\"hi\\\"\", \"mode\": \"cubic\"}, {\"name\": "
+     "\"two\\nlines\", "
+     "\"mode\": \"cubic\"}]}"},
     {"loose.json",
      "{\"frames\": [0, 48], \"splines\": [{\"name\": \"loose\", \"frequency\": 1, \"calm\": 0, \"knots\": "
      "[{\"frame\": 0, \"value\": 0}, {\"frame\": 24, \"value\": 1}]}]}"},
@@ -242,7 +248,7 @@ static const struct row {
     {2, "live --turns third", "--turns: expected"},
     {2, BLIND "--screenshot x.png", "--no-draw: expected no --screenshot"},
     {2, BLIND "--saves sub s.json", "--saves is for what a replay writes: expected --replay, too"},
-    {1, BLIND "none.json", "none.json: cannot be opened"},
+    {1, BLIND "missing.json", "missing.json: cannot be opened"},
     {1, BLIND "three.bin", "three.bin"},
     {1, BLIND "pipe.json", "pipe.json: expected a file, got something else"},
     {1, BLIND "a.FBX",
@@ -266,6 +272,11 @@ static const struct row {
     {3, "solve c.json -o no/out.csv", "no/out.csv"},
     {3, "solve c.json -o full", "full: cannot be written: No space left on device"},
     {3, "solve c.json -o pipe.csv", "it is a pipe that nobody reads"},
+    {0, "solve none.json", "frame\n0\n1\n"},
+    {0, "solve names.json", // quotes as RFC 4180 wants
+     "frame,\"a,b\",\"a,b.re\",\"a,b.im\",\"say \"\"hi\"\"\",\"say \"\"hi\"\".re\",\"say "
+     "\"\"hi\"\".im\",\"two\nlines\",\"two\nlines.re\",\"two\n"
+     "lines.im\"\n-1,0.10000000000000001,0.10000000000000001,0,0,0,0,0,0,0\n-0.6666666666666667,"},
     {0, "solve loose.json", "\"loose\": "},
     {0, "check loose.json", "warning: "},
     {0, "check pinned.json", "pinned.json: rigs[0].pins[0]: the point stays 9."},
@@ -518,4 +529,29 @@ TEST(checks_of_scenes)
     assert_int_equal(lines, 3);
     command_run("check sub"); // a folder
     assert_int_equal(command.status, 1);
+    DIR *all = opendir("assets/scenes");
+    assert_non_null(all);
+    for (struct dirent *entry; (entry = readdir(all));) {
+        char line[300];
+        if (!strstr(entry->d_name, ".json")) continue;
+        snprintf(line, sizeof line, "check assets/scenes/%s", entry->d_name);
+        assert_command(0, line, "");
+        if (command.out[0] || command.err[0]) fail_msg("wiggly %s: %s%s", line, command.out, command.err);
+    }
+    closedir(all);
+}
+
+/// Undamped, no calm, knots at half periods: only last digits hold it.
+TEST(an_inexact_curve_is_said)
+{
+    char text[LINE];
+    int n =
+        sprintf(text, "{\"fps\": 15, \"frames\": [0, 610], \"splines\": [{\"name\": \"chain\", \"frequency\": 0.75, "
+                      "\"bandwidth\": 0, \"calm\": 1e-6, \"knots\": [");
+    for (int k = 0; k <= 60; k++)
+        n += sprintf(text + n, "%s{\"frame\": %d, \"value\": 0.%d}", k ? "," : "", 10 * k, k * k * 7 % 10);
+    sprintf(text + n, "]}]}");
+    folder_file("chain.json", text);
+    assert_command(0, "solve chain.json", "\"chain\": solved, but the estimated error exceeds the tolerance: ");
+    assert_non_null(strstr(command.err, " of the curve's size\n"));
 }
