@@ -171,7 +171,7 @@ while read -r line; do bash -c "$line"; done < <(grep -ohE '`make [^`]*`' $docum
 mapfile -t goals < <(sort -u "$scratch/goals")
 # shellcheck disable=SC2046
 expect 0 "there is something to do for: ${goals[*]}" "$make" --no-print-directory -n B="$B" $(printf '%s\n' "${goals[@]}" | grep -v =)
-missing=$(printf '%s\n' "${goals[@]}" | sed -n 's/^TESTS=//p' | tr ' ' '\n' | while read -r test; do [ -e "$test" ] || echo "$test"; done)
+missing=$(printf '%s\n' "${goals[@]}" | sed -n 's/^TESTS=//p' | tr ' ' '\n' | while read -r test; do tools/find-tests.sh "$test" >/dev/null 2>&1 || echo "$test"; done)
 variables=$(printf '%s\n' "${goals[@]}" | sed -n 's/=.*//p' | while read -r name; do grep -qE "\b$name\b" Makefile tools/*.mk tools/*.sh || echo "$name"; done)
 holds "and each test and variable is there" [ -z "$missing$variables" ]
 
