@@ -103,7 +103,7 @@ static inline void seek(struct editor *e, double frame) { playback_seek(&e->core
 static inline double shown_frame(const struct editor *e) { return core_frame(&e->core); }
 static inline bool plays_part(const struct editor *e) { return playback_is_part(&e->core); }
 static inline enum look look(const struct editor *e) { return e->core.view.look; }
-static inline const struct overlays *overlays_of(const struct editor *e) { return &e->core.view.overlays; }
+static inline bool is_on(const struct editor *e, enum view_switch which) { return e->core.view.on[which]; }
 static inline void set_path(struct editor *e, const char *path) { history_set_path(e->core.history, path); }
 static inline const struct evaluation *solved(const struct editor *e) { return e->core.evaluation; }
 
@@ -137,7 +137,7 @@ static inline struct ui_list *sections(const struct editor *e) { return &e->insp
 static inline void unfold(struct editor *e, const char *section) { inspector_unfold(e->inspector, section); }
 static inline int shown_rig(const struct editor *e) { return e->inspector->rig; }
 static inline int shown_channel(const struct editor *e) { return e->inspector->channel; }
-static inline void show_more(struct editor *e, bool more) { e->core.view.more = more; }
+static inline void show_more(struct editor *e, bool more) { e->core.view.on[SWITCH_MORE] = more; }
 static inline bool widget_at(const struct editor *e, const char *name, float *x, float *y)
 {
     return inspector_target(e->inspector, name, x, y);

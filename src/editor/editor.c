@@ -37,8 +37,9 @@ struct editor *editor_create(const struct editor_app *app)
     editor->core.view.visible = 2;
     editor->core.focus.active = -1;
     editor->core.focus.brush = (struct brush){.radius = 0.12, .strength = 0.4};
-    editor->core.view.overlays.ghost = true;
-    editor->core.step.keep = true;
+#define STARTS(name, starts, said_off, said_on) editor->core.view.on[SWITCH_##name] = starts;
+    SWITCH_LIST(STARTS)
+#undef STARTS
     editor_resize(editor, 1280, 720, 1);
     return editor;
 }
@@ -143,16 +144,16 @@ struct editor_choices editor_choices(const struct editor *editor)
     const struct view *view = &editor->core.view;
     return (struct editor_choices){.stage_share = (double)view->layout.stage_share,
                                    .inspector_width = (double)view->layout.inspector_width,
-                                   .more = view->more,
-                                   .keep = editor->core.step.keep,
+                                   .more = view->on[SWITCH_MORE],
+                                   .keep = view->on[SWITCH_KEEP],
                                    .is_welcomed = !dialogs_is_welcoming(editor->dialogs)};
 }
 
 void editor_choose(struct editor *editor, const struct editor_choices *choices)
 {
     core_set_panels(&editor->core, choices->stage_share, choices->inspector_width);
-    editor->core.view.more = choices->more;
-    editor->core.step.keep = choices->keep;
+    editor->core.view.on[SWITCH_MORE] = choices->more;
+    editor->core.view.on[SWITCH_KEEP] = choices->keep;
     if (!choices->is_welcomed) dialogs_welcome(editor->dialogs);
 }
 
@@ -221,10 +222,10 @@ static void paint_control(const struct core *core, struct drawlist *list, int co
     char speed[16], size[16];
     snprintf(speed, sizeof speed, "%g×", playback->speed);
     snprintf(size, sizeof size, "%.0f %%", 100 * core->app.figures->ui_scale);
-    const bool on[] = {
-        [PLAY] = playback->playing,         [LOOP] = playback->looping, [SPEED] = playback->speed != 1,
-        [AUTO_KEY] = core->step.auto_key,   [KEEP] = core->step.keep,   [SIZE] = core->app.figures->ui_scale != 1,
-        [PRESENT] = core->view.presenter.on};
+    const bool on[] = {[PLAY] = playback->playing,          [LOOP] = core->view.on[SWITCH_LOOP],
+                       [SPEED] = playback->speed != 1,      [AUTO_KEY] = core->view.on[SWITCH_AUTO_KEY],
+                       [KEEP] = core->view.on[SWITCH_KEEP], [SIZE] = core->app.figures->ui_scale != 1,
+                       [PRESENT] = core->view.presenter.on};
     const char *const words[CONTROLS] = {
         [LOOP] = "Loop", [SPEED] = speed, [AUTO_KEY] = "Auto-key", [KEEP] = "Keep", [SIZE] = size};
     const uint32_t color = on[control] ? theme()->accent : hot ? theme()->text : theme()->text_dim;

@@ -35,9 +35,9 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
     theme_use(other);
     blind.app.figures.ui_scale = 1.5;
     core_set_panels(&blind.app.work.editor->core, 0.4, 333);
-    assert_false(blind.app.work.editor->core.view.more);
+    assert_false(is_on(blind.app.work.editor, SWITCH_MORE));
     blind_key(&blind, KEY_F9, 0);
-    assert_true(blind.app.work.editor->core.step.keep);
+    assert_true(is_on(blind.app.work.editor, SWITCH_KEEP));
     blind_key(&blind, 'A', MOD_ALT);
     personal_update(&blind.app);
     end(&blind);
@@ -46,8 +46,8 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
     start(&blind);
     assert_int_equal(theme_in_use(), other);
     assert_near(blind.app.figures.ui_scale, 1.5, 0);
-    assert_true(blind.app.work.editor->core.view.more);
-    assert_false(blind.app.work.editor->core.step.keep);
+    assert_true(is_on(blind.app.work.editor, SWITCH_MORE));
+    assert_false(is_on(blind.app.work.editor, SWITCH_KEEP));
     assert_near(layout_of(blind.app.work.editor)->stage_share, 0.4, 1e-6);
     assert_near(layout_of(blind.app.work.editor)->inspector_width, 333, 1e-9);
     end(&blind);

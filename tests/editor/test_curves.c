@@ -167,9 +167,9 @@ SESSION_TEST(test_ruler_units_and_snap, session_open(s, FIVE))
 {
     session_move(s, layout_of(s->editor)->ruler.x / 2, layout_of(s->editor)->ruler.y + 8);
     session_click_here(s, 1);
-    assert_true(s->editor->core.view.curves.seconds);
+    assert_true(is_on(s->editor, SWITCH_SECONDS));
     session_key(s, 'U', 0);
-    assert_false(s->editor->core.view.curves.seconds);
+    assert_false(is_on(s->editor, SWITCH_SECONDS));
     float frame = (float)(layout_of(s->editor)->plot.w / (plot_of(s->editor)->frame1 - plot_of(s->editor)->frame0));
     session_key(s, 'G', 0); // off the frames
     session_pull(s, "knot(sway,0)", 2.25f * frame, 0, 3);

@@ -240,7 +240,7 @@ SESSION_TEST(test_the_palette_flips_switches, session_open(s, scene))
         }
         assert_int_equal(selection_has(&core->view.solo, s->document->splines[0]->id), on);
         assert_int_equal(selection_has(&core->view.hidden, s->document->splines[0]->id), on);
-        assert_int_equal(core->step.record_armed, on);
+        assert_int_equal(core->view.on[SWITCH_RECORD], on);
     }
 }
 
@@ -279,7 +279,7 @@ SESSION_TEST(test_the_palette_is_walked, session_open(s, scene))
     assert_non_null(row);
     session_move(s, row->x + 4, row->y - 4);
     session_click_here(s, 1);
-    assert_true(overlays_of(s->editor)->onion);
+    assert_true(is_on(s->editor, SWITCH_ONION));
 }
 
 // --- the table -------------------------------------------------------------------------------------------

@@ -154,6 +154,6 @@ TALL_TEST(test_toggles)
     panel_click(s, "onion");
     panel_click(s, "trail");
     panel_click(s, "record");
-    assert_true(overlays_of(s->editor)->onion && overlays_of(s->editor)->trail && s->editor->core.step.record_armed);
+    assert_true(is_on(s->editor, SWITCH_ONION) && is_on(s->editor, SWITCH_TRAIL) && is_on(s->editor, SWITCH_RECORD));
     assert_null(history_undo_label(s->history));
 }

@@ -67,7 +67,7 @@ SESSION_TEST(test_onion_shows_the_nearest_knots, session_open(s, scene))
     session_key(s, KEY_DELETE, 0);
     assert_int_equal(find(s, DRAW_LINE, color).count, 0);
     session_key(s, 'O', 0);
-    assert_false(overlays_of(s->editor)->onion);
+    assert_false(is_on(s->editor, SWITCH_ONION));
 }
 
 /// A mark a frame, where the tip will be; the range's ends are the arc's.
@@ -111,8 +111,8 @@ SESSION_TEST(test_overlays_outlive_documents,
     session_key(s, 'O', MOD_SHIFT);
     editor_open(s->editor, &s->world);
     session_frame(s);
-    assert_true(overlays_of(s->editor)->onion);
-    assert_true(overlays_of(s->editor)->trail);
+    assert_true(is_on(s->editor, SWITCH_ONION));
+    assert_true(is_on(s->editor, SWITCH_TRAIL));
 }
 
 SESSION_TEST(test_the_ghost_is_the_pose_at_the_knot_in_hand, session_open(s, scene))

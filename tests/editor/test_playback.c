@@ -177,7 +177,7 @@ SESSION_TEST(test_controls, open_at(s, 10))
     click_on(s, "widget(play)", BUTTON_LEFT);
     assert_false(playback_of(s->editor)->playing);
     click_on(s, "widget(loop)", BUTTON_LEFT);
-    assert_false(playback_of(s->editor)->looping);
+    assert_false(is_on(s->editor, SWITCH_LOOP));
     click_on(s, "widget(speed)", BUTTON_LEFT);
     assert_near(playback_of(s->editor)->speed, 2, 0);
     s->mods = MOD_SHIFT;

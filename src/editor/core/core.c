@@ -52,20 +52,24 @@ void core_open(struct core *core)
 
     const struct character_rig *character = document_character(document, 0);
     const int phases = character ? character->phases : -1;
-    core->focus.characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
+    core->view.on[SWITCH_PHASE_MAP] = phases >= 0;
+    core->view.on[SWITCH_TWIN] = false;
+    core->focus.characters = (struct character_view){.axis = phases >= 0 ? phases : 1};
 
     // Scenes that loop, have a clip or a description play. Auto-key is on if a body is animated.
     core->view.seen_first = document->first_frame;
     core->view.seen_substeps = document->substeps;
-    core->view.playback = (struct playback){
-        .looping = true, .speed = 1, .playing = document->about != NULL, .range = {-INFINITY, INFINITY}};
+    core->view.on[SWITCH_LOOP] = true;
+    core->view.playback =
+        (struct playback){.speed = 1, .playing = document->about != NULL, .range = {-INFINITY, INFINITY}};
     for (int s = 0; s < document->spline_count; s++)
         core->view.playback.playing |= spline_start(document->splines[s]) == WIGGLY_LOOP;
-    core->step.auto_key = false;
+    core->view.on[SWITCH_AUTO_KEY] = false;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
         core->view.playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
-        for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) core->step.auto_key |= rig->tail.position[k].track >= 0;
+        for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++)
+            core->view.on[SWITCH_AUTO_KEY] |= rig->tail.position[k].track >= 0;
     }
     if (core->app.still) core->view.playback.playing = false;
 }
@@ -101,7 +105,7 @@ bool core_step(struct core *core, const char *label, uint64_t merge)
     // The phases that core_keep_following() gives back.
     const struct document *document = core->document;
     core->step.pressed.count = 0;
-    if (!core->step.keep || !evaluation_is_of(core->evaluation, document)) return true;
+    if (!core->view.on[SWITCH_KEEP] || !evaluation_is_of(core->evaluation, document)) return true;
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
         for (int k = 0; k < spline->knot_count && spline_winds_up(document, s); k++) {
@@ -640,7 +644,7 @@ void core_keep_following(struct core *core)
 {
     const struct document *document = core->document, *before = history_before(core->history);
     const bool swings = core->input.drag.owner && core->input.mods & MOD_ALT;
-    if (!core->step.keep || swings || core->step.pressed.count == 0) return;
+    if (!core->view.on[SWITCH_KEEP] || swings || core->step.pressed.count == 0) return;
     for (int s = 0; s < document->spline_count; s++) {
         const int old = document_find_spline_id(before, document->splines[s]->id);
         if (old < 0 || before->splines[old] == document->splines[s] || !spline_winds_up(document, s)) continue;

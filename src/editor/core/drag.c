@@ -8,7 +8,7 @@
 static const float CLICK_REACH = 3; ///< pixels a click may move
 static const double FINE = 0.1;     ///< of the pointer's movement, with Shift
 
-bool drag_snaps(const struct core *core, unsigned mods) { return core->input.no_snap == !!(mods & MOD_CTRL); }
+bool drag_snaps(const struct core *core, unsigned mods) { return core->view.on[SWITCH_SNAP] != !!(mods & MOD_CTRL); }
 
 void drag_begin(struct core *core, const struct drag_owner *owner, void *room, const char *label,
                 const struct event *event)

@@ -528,7 +528,7 @@ void characters_set_brush(struct core *core, bool on)
     for (int k = 1; k < 3; k++) {
         if (largest[k] > largest[axis]) axis = k;
     }
-    if (!core->focus.characters.mapped) core->focus.characters.axis = axis;
+    if (!core->view.on[SWITCH_PHASE_MAP]) core->focus.characters.axis = axis;
     core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
 }
 

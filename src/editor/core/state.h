@@ -134,7 +134,6 @@ struct hover {
 
 struct playback {
     bool playing;
-    bool looping;    ///< over the played range (Ctrl+L)
     double position; ///< in samples, fractional
     double speed;    ///< 1: real time
     long dropped;    ///< scene frames skipped since playback began
@@ -190,9 +189,7 @@ struct subject {
 /// The selected soft character and its display. Zero is a valid start.
 struct character_view {
     int character, drive; ///< selected in the inspector
-    bool mapped;          ///< shows the phase map
     int axis;             ///< axis of the shown phases: x, y, z
-    bool compare;         ///< shows a stiff twin beside each character
 };
 
 enum brush_mode {
@@ -235,19 +232,35 @@ struct brush {
     double strength; ///< 0 … 1
 };
 
-/// Overlays on the stage, independent of the document.
-struct overlays {
-    bool onion, trail;
-    bool ghost;    ///< the pose at the dragged or nudged knot
-    bool original; ///< the clip alone beside an imported character
-};
+/// What a user switches on and off: whether it starts on, and what core_flip() says.
+#define SWITCH_LIST(X)                                                                                               \
+    X(SNAP, true, "Snapping off: hold Ctrl to snap to frames.",                                                      \
+      "Snapping on: hold Ctrl to place knots between frames.")                                                       \
+    X(AUTO_KEY, false, "Auto-key off: dragging a body moves it for the whole shot.",                                 \
+      "Auto-key on: dragging a body sets knots at the playhead.")                                                    \
+    X(KEEP, true, "Keep off: what follows an edit swings on from it.",                                               \
+      "Keep on: the next free knot becomes a pose, and nothing changes beyond it.")                                  \
+    X(LOOP, false, "Playback stops at the end.", "Playback loops.")                                                  \
+    X(ONION, false, "Onion skin off.", "Onion skin on: the pose at the knots around the playhead (O).")              \
+    X(TRAIL, false, "Motion arc off.",                                                                               \
+      "Motion arc on: the path of the tip or liveliest point, one mark per frame (Shift+O).")                        \
+    X(GHOST, true, "Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4).")                   \
+    X(ORIGINAL, false, "Original off.", "Original on: beside the character, its clip without the chains.")           \
+    X(SHEET, false, "Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F7).")          \
+    X(PHASE, false, "Phase curve off.", "Phase curve on: a quarter of a swing behind the curve.")                    \
+    X(MORE, false, "The inspector shows the main sections (F9).", "The inspector shows all sections (F9).")          \
+    X(SECONDS, false, "The ruler shows frames.", "The ruler shows seconds.")                                         \
+    X(NORMALISE, false, "All curves share one axis again.",                                                          \
+      "Normalised: every curve is as high as the active one. The axis shows the active curve's values.")             \
+    X(RECORD, false, "Recording is off.", "The next drag of the body is recorded.")                                  \
+    X(PHASE_MAP, false, "Phase map off.", "Phase map on: the colour of a point is its phase.")                       \
+    X(TWIN, false, "Stiff twin off.", "Stiff twin on: beside the character, one that moves without phases.")
 
-/// View options of the curves panel, independent of the document.
-struct curve_options {
-    bool normalise; ///< all curves as high as the active one, whose values the axis shows
-    bool seconds;   ///< on the ruler instead of frames
-    bool sheet;     ///< the dope sheet is open
-    bool phase;     ///< the imaginary part of the active curve
+enum view_switch {
+#define SWITCH(name, starts, said_off, said_on) SWITCH_##name,
+    SWITCH_LIST(SWITCH)
+#undef SWITCH
+        SWITCH_COUNT
 };
 
 /// The scene as it was kept, for this session.
@@ -269,9 +282,6 @@ struct step {
     struct originals pressed; ///< the free knots as it began, with the phases they had
     struct originals originals;
     struct edited edited;
-    bool keep;             ///< an edit leaves what follows the next knot as it is
-    bool auto_key;         ///< dragging a body sets knots at the playhead instead of moving the whole shot
-    bool record_armed;     ///< record the next drag of a body
     double nudged_seconds; ///< remaining time of a nudged knot's ghost
 };
 
@@ -297,7 +307,6 @@ struct input {
     int held_key;   ///< F Z B C L K while held, else 0
     bool held_used; ///< with an arrow
     bool space_down, space_used;
-    bool no_snap; ///< Ctrl inverts this
     struct drag drag;
     struct hover hover;
 };
@@ -310,12 +319,10 @@ struct view {
     struct playback playback;
     int seen_first, seen_substeps; ///< of the scene, as the playhead counts
     enum look look;
-    struct overlays overlays;
-    struct curve_options curves;
+    bool on[SWITCH_COUNT];
     struct selection hidden, solo; ///< sets of spline ids
     unsigned visibility;           ///< grows when these change
     double visible;                ///< height of the visible values
-    bool more;                     ///< the inspector shows everything
     bool plain;                    ///< the stage without text
     bool refit_stage;              ///< editor_pose() fits the camera: what an edit adds has no place before
     bool refit_curves;             ///< it shows all curves: they have no values before the solve

@@ -248,7 +248,7 @@ void playback_toggle(struct core *core, int unused)
     if (!playback->playing) return;
     range_positions(core, range);
     playback->dropped = 0;
-    bool at_end = !playback->looping && playback->position >= range[1];
+    bool at_end = !core->view.on[SWITCH_LOOP] && playback->position >= range[1];
     if (at_end || playback->position < range[0] || playback->position > range[1]) playback->position = range[0];
 }
 
@@ -272,11 +272,11 @@ void playback_advance(struct core *core, double dt)
 
     playback->position = fmax(to, range[0]);
     if (to < range[1]) return;
-    if (playback->looping && range[1] > range[0]) {
+    if (core->view.on[SWITCH_LOOP] && range[1] > range[0]) {
         playback->position = range[0] + fmod(to - range[0], range[1] - range[0]);
     } else {
         playback->position = range[1];
-        playback->playing = playback->looping;
+        playback->playing = core->view.on[SWITCH_LOOP];
     }
 }
 
@@ -311,51 +311,16 @@ void playback_change_speed(struct core *core, int direction)
 
 void core_flip(struct core *core, int which)
 {
-    const struct {
-        bool *on;
-        const char *said[2]; ///< messages for off and on
-    } switches[] = {
-        [SWITCH_SNAP] = {&core->input.no_snap,
-                         {"Snapping on: hold Ctrl to place knots between frames.",
-                          "Snapping off: hold Ctrl to snap to frames."}},
-        [SWITCH_AUTO_KEY] = {&core->step.auto_key,
-                             {"Auto-key off: dragging a body moves it for the whole shot.",
-                              "Auto-key on: dragging a body sets knots at the playhead."}},
-        [SWITCH_KEEP] = {&core->step.keep,
-                         {"Keep off: what follows an edit swings on from it.",
-                          "Keep on: the next free knot becomes a pose, and nothing changes beyond it."}},
-        [SWITCH_LOOP] = {&core->view.playback.looping, {"Playback stops at the end.", "Playback loops."}},
-        [SWITCH_ONION] = {&core->view.overlays.onion,
-                          {"Onion skin off.", "Onion skin on: the pose at the knots around the playhead (O)."}},
-        [SWITCH_TRAIL] = {&core->view.overlays.trail,
-                          {"Motion arc off.",
-                           "Motion arc on: the path of the tip or liveliest point, one mark per frame (Shift+O)."}},
-        [SWITCH_SHEET] = {&core->view.curves.sheet,
-                          {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F7)."}},
-        [SWITCH_PHASE] = {&core->view.curves.phase,
-                          {"Phase curve off.", "Phase curve on: a quarter of a swing behind the curve."}},
-        [SWITCH_MORE] = {&core->view.more,
-                         {"The inspector shows the main sections (F9).", "The inspector shows all sections (F9)."}},
-        [SWITCH_SECONDS] = {&core->view.curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
-        [SWITCH_NORMALISE] = {&core->view.curves.normalise,
-                              {"All curves share one axis again.",
-                               "Normalised: every curve is as high as the active one. The axis shows the active "
-                               "curve's values."}},
-        [SWITCH_GHOST] = {&core->view.overlays.ghost,
-                          {"Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4)."}},
-        [SWITCH_ORIGINAL] = {&core->view.overlays.original,
-                             {"Original off.", "Original on: beside the character, its clip without the chains."}},
-        [SWITCH_RECORD] = {&core->step.record_armed, {"Recording is off.", "The next drag of the body is recorded."}},
-        [SWITCH_PHASE_MAP] = {&core->focus.characters.mapped,
-                              {"Phase map off.", "Phase map on: the colour of a point is its phase."}},
-        [SWITCH_TWIN] = {&core->focus.characters.compare,
-                         {"Stiff twin off.", "Stiff twin on: beside the character, one that moves without phases."}},
+    static const char *const said[][2] = {
+#define SAID(name, starts, said_off, said_on) [SWITCH_##name] = {said_off, said_on},
+        SWITCH_LIST(SAID)
+#undef SAID
     };
-    bool *on = switches[which].on;
+    bool *on = &core->view.on[which];
     *on = !*on;
     core->view.refit_curves |= which == SWITCH_NORMALISE;
     core->view.refit_stage |= which == SWITCH_TWIN || which == SWITCH_ORIGINAL;
-    core_message(core, false, "%s", switches[which].said[*on]);
+    core_message(core, false, "%s", said[which][*on]);
 }
 
 void core_set_look(struct core *core, enum look look)

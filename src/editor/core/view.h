@@ -47,25 +47,6 @@ void playback_say_range(struct core *core);
 /// Sets the range's start (0) or end (1) to the playhead.
 void playback_mark(struct core *core, int end);
 
-/// The switches of core_flip().
-enum core_switch {
-    SWITCH_SNAP,
-    SWITCH_AUTO_KEY,
-    SWITCH_KEEP,
-    SWITCH_LOOP,
-    SWITCH_ONION,
-    SWITCH_TRAIL,
-    SWITCH_GHOST,
-    SWITCH_ORIGINAL,
-    SWITCH_SHEET,
-    SWITCH_PHASE,
-    SWITCH_MORE,
-    SWITCH_SECONDS,
-    SWITCH_NORMALISE,
-    SWITCH_RECORD,
-    SWITCH_PHASE_MAP,
-    SWITCH_TWIN
-};
 /// Flips a switch and shows a message.
 void core_flip(struct core *core, int which);
 /// Chooses the look and shows a message.

@@ -155,7 +155,7 @@ void curves_frame_all(struct curves *curves, struct core *core)
     struct plotted part = NOTHING, *view = &curves->view;
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
-        if (core->view.curves.normalise && s != core->focus.active) continue;
+        if (core->view.on[SWITCH_NORMALISE] && s != core->focus.active) continue;
         for (int k = 0; k < spline->knot_count; k++)
             include_value(&part, core_knot_value(core, s, &spline->knots[k]));
         include_curve(curves, core, s, 0, INFINITY, &part);
@@ -235,7 +235,7 @@ static struct value_map map_between(const struct curves *curves, const struct co
     const struct value_map as_it_is = {1, 0};
     const struct curve_cache *cache = &curves->cache;
     bool measured = spline < cache->range_count && active >= 0 && active < cache->range_count;
-    if (!core->view.curves.normalise || spline == active || !measured) return as_it_is;
+    if (!core->view.on[SWITCH_NORMALISE] || spline == active || !measured) return as_it_is;
     const double *to = cache->range[active], *from = cache->range[spline];
     if (!has_height(to)) return as_it_is;
     if (!has_height(from)) return (struct value_map){1, (to[0] + to[1]) / 2 - from[0]};

@@ -703,7 +703,7 @@ void sheet_update(struct curves *curves, struct core *core)
 {
     struct dope_sheet *sheet = &curves->sheet;
     const float room = core->view.layout.curves.h - core->view.layout.ruler.h - LEAST_PLOT - 2 * SHEET_PAD;
-    const int total = core->view.curves.sheet ? list_rows(core, 0, NULL, 0) : 0;
+    const int total = core->view.on[SWITCH_SHEET] ? list_rows(core, 0, NULL, 0) : 0;
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
     if (sheet->active != core->focus.active_id) { // scroll its row into view
@@ -811,7 +811,7 @@ void sheet_show(const struct curves *curves, struct core *core)
     const float x = r.x + 8, y = r.y + r.h / 2, a = 3.5f;
     const float right[] = {x - a + 1, y - a, x + a, y, x - a + 1, y + a},
                 down[] = {x - a, y - a + 1, x + a, y - a + 1, x, y + a};
-    drawlist_convex(&core->list, core->view.curves.sheet ? down : right, 3,
+    drawlist_convex(&core->list, core->view.on[SWITCH_SHEET] ? down : right, 3,
                     core->input.hover.thing == &thing_sheet ? theme()->text : theme()->text_dim);
     if (area->h <= 0) return;
     for (int row = 0; row < sheet->rows; row++) {

@@ -133,8 +133,8 @@ static void curves_update(struct curves *curves, struct core *core)
     const struct document *document = core->document;
     const struct evaluation *evaluation = core->evaluation;
     uint64_t revision[2] = {history_revision(core->history), evaluation ? evaluation->revision : 0};
-    int choice[3] = {core->focus.active, (int)core->view.look, core->view.curves.normalise};
-    bool held = core->view.curves.normalise && core->input.drag.owner != NULL;
+    int choice[3] = {core->focus.active, (int)core->view.look, core->view.on[SWITCH_NORMALISE]};
+    bool held = core->view.on[SWITCH_NORMALISE] && core->input.drag.owner != NULL;
     uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
     key = hash_bytes(key, choice, sizeof choice);
     key = hash_bytes(key, &held, sizeof held);
@@ -174,7 +174,7 @@ static void curves_update(struct curves *curves, struct core *core)
     draw_active(curves, core);
 
     // What normalised curves cover. During a drag it stays, so that the other curves hold still.
-    if (core->view.curves.normalise && !core->input.drag.owner && evaluation) {
+    if (core->view.on[SWITCH_NORMALISE] && !core->input.drag.owner && evaluation) {
         cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
         for (int i = 0; i < 2 * cache->range_count; i++) {
             const int sample = evaluation_extreme(evaluation, i / 2, 0, evaluation->samples - 1, i % 2);
@@ -291,8 +291,8 @@ static void end_range(void *room, struct core *core, bool keep)
 static void tag_text(const struct core *core, char text[32])
 {
     double frame = round(core_frame(core)) + 0.0; /* the one that I would insert at */
-    snprintf(text, 32, core->view.curves.seconds ? "%.2f" : "%.0f",
-             core->view.curves.seconds ? frame / core->document->fps : frame);
+    snprintf(text, 32, core->view.on[SWITCH_SECONDS] ? "%.2f" : "%.0f",
+             core->view.on[SWITCH_SECONDS] ? frame / core->document->fps : frame);
 }
 
 /// The rectangle of the playhead's frame number on the ruler; empty if the playhead is not visible.
@@ -315,7 +315,7 @@ static void grid_show(const struct curves *curves, struct core *core)
                       *axis = &layout->value_axis;
     const struct plotted *view = &curves->view;
     char text[32];
-    const double unit = core->view.curves.seconds ? core->document->fps : 1; // frames per unit of the ruler
+    const double unit = core->view.on[SWITCH_SECONDS] ? core->document->fps : 1; // frames per unit of the ruler
     struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
     drawlist_rect(&core->list, layout->curves, theme()->panel);
@@ -372,7 +372,7 @@ static void grid_show(const struct curves *curves, struct core *core)
     }
     drawlist_set_clip(&core->list, clip);
     const struct rect corner = ruler_corner(core);
-    const char *name = core->view.curves.seconds ? "s" : "frame";
+    const char *name = core->view.on[SWITCH_SECONDS] ? "s" : "frame";
     const float left = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, name);
     drawlist_text(&core->list, left, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
                   core->input.hover.thing == &thing_units ? theme()->text : theme()->text_dim, name);
@@ -555,7 +555,7 @@ static void show_line(struct core *core, const float *xy, int count, bool band, 
 
 static bool shows_imaginary(const struct core *core, const struct spline *spline)
 {
-    return core->view.curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->view.look != LOOK_CUBIC;
+    return core->view.on[SWITCH_PHASE] && spline_mode(spline) == WIGGLY_COMPLEX && core->view.look != LOOK_CUBIC;
 }
 
 /// In painter's order, the active line and the take last.
@@ -873,7 +873,8 @@ void curves_show(struct curves *curves, struct core *core)
     sheet_show(curves, core);
 
     // Notes above the curves' names: before (K), phase curve (V), normalised (N), no snapping (G).
-    const char *normal = core->view.curves.normalise ? "fit" : "", *snap = core->input.no_snap ? "free" : "";
+    const char *normal = core->view.on[SWITCH_NORMALISE] ? "fit" : "",
+               *snap = core->view.on[SWITCH_SNAP] ? "" : "free";
     const char *const words[] = {take_is_shown(core) ? "Before" : "", looks[core->view.look], normal, snap};
     char text[40] = "", frame[32];
     for (int i = 0; i < 4; i++) {

@@ -551,7 +551,7 @@ static struct card place_card(const struct core *core, struct rect figure)
         bool right;
     } places[] = {{FORM_WIDE, false}, {FORM_UPRIGHT, false}, {FORM_UPRIGHT, true}, {FORM_WIDE, true}};
     const bool legend =
-        core->focus.characters.mapped || core->focus.brush.on; // the phase map's legend is at the left
+        core->view.on[SWITCH_PHASE_MAP] || core->focus.brush.on; // the phase map's legend is at the left
     const struct rect *stage = &core->view.layout.stage;
     const bool roomy = stage->w >= WIDE && rigs_lead(core) != LEAD_CHARACTER;
     const float closes = width_of(FONT_LABEL, more) + CARD_GAP + width_of(FONT_LABEL_BOLD, closing);

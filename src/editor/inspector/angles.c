@@ -386,7 +386,7 @@ float inspector_highest_curve(const struct inspector *in, enum angle_kind kind)
     static const float heights[] = {[ANGLES_ONE] = 0, [ANGLES_RAMP] = HEIGHT, [ANGLES_EACH] = HEIGHT + UI_ROW};
     const struct document *document = in->core->document;
     float highest = 0;
-    for (int r = 0; in->core->view.more && r < document->rig_count; r++) {
+    for (int r = 0; in->core->view.on[SWITCH_MORE] && r < document->rig_count; r++) {
         int count;
         const struct channel *channels = rig_channels(document->rigs[r], &count);
         for (int c = 0; c < count; c++)
@@ -410,9 +410,9 @@ void inspector_angles(struct inspector *in, enum angle_kind kind)
     number.minimum *= reach;
     number.maximum = lags ? 720 : reach * number.maximum;
     if (several) number.fallback = NAN;
-    if (in->core->view.more) r.w = left.x - r.x - 2;
+    if (in->core->view.on[SWITCH_MORE]) r.w = left.x - r.x - 2;
     inspector_number(in, &number, &home, (int)kind, r);
-    if (!in->core->view.more) return;
+    if (!in->core->view.on[SWITCH_MORE]) return;
 
     const struct angles *angles = angles_of(in, (int)kind);
     struct angles ramp = {.form = ANGLES_RAMP, .count = 2}, each = {.form = ANGLES_EACH, .count = joints};

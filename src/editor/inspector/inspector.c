@@ -91,7 +91,7 @@ static bool is_shown(const struct inspector *in, int i)
     unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
     for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
     if (section->needs && !(section->needs & found)) return false;
-    return core->view.more || in->called[i] || (section->shown && section->shown(core));
+    return core->view.on[SWITCH_MORE] || in->called[i] || (section->shown && section->shown(core));
 }
 
 void inspector_unfold(struct inspector *in, const char *name)
@@ -119,7 +119,7 @@ static bool build_panel(struct inspector *in, struct rect area)
         const struct section *section = &sections[i];
         bool *flipped = &in->flipped[i];
         if (i == FIRST) { // at a fixed place
-            const bool more = in->core->view.more;
+            const bool more = in->core->view.on[SWITCH_MORE];
             const struct rect row = ui_row(ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
             ui_hint(ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
             if (ui_button(ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);

@@ -436,11 +436,11 @@ static void build_overlays(struct inspector *in)
         const char *name, *label, *hint;
         bool *on;
     } toggles[] = {
-        {"onion", "onion skin", "Show the pose at the knots around the playhead (O)", &core->view.overlays.onion},
+        {"onion", "onion skin", "Show the pose at the knots around the playhead (O)", &core->view.on[SWITCH_ONION]},
         {"trail", "motion arc", "Show the path of the tip or liveliest point, one mark per frame (Shift+O)",
-         &core->view.overlays.trail},
+         &core->view.on[SWITCH_TRAIL]},
         {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)",
-         &core->view.overlays.ghost},
+         &core->view.on[SWITCH_GHOST]},
     };
     for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
@@ -578,7 +578,7 @@ void inspector_tail(struct inspector *in)
     if (document_tail(in->core->document, 0)) {
         const struct rect r = inspector_labelled(in, "record");
         ui_hint(ui, r, "Record the next drag of the body as knots (or press R while dragging)");
-        ui_toggle(ui, r, "record", &in->core->step.record_armed);
+        ui_toggle(ui, r, "record", &in->core->view.on[SWITCH_RECORD]);
     }
     build_overlays(in);
 }
@@ -845,14 +845,15 @@ void inspector_character(struct inspector *in)
         }
     }
 
-    int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
+    bool *on = in->core->view.on;
+    int map = on[SWITCH_PHASE_MAP] ? 1 + view->axis : 0, pair = on[SWITCH_TWIN];
     if (inspector_choice(in, "phases", "Colour each point by its phase along x, y or z", "phases", maps, 4, &map)) {
-        view->mapped = map > 0;
+        on[SWITCH_PHASE_MAP] = map > 0;
         if (map > 0) view->axis = map - 1;
     }
     if (inspector_choice(in, "stiff twin", "Show a second character without phases: all its points move in step",
                          "twin", pairs, 2, &pair)) {
-        view->compare = pair;
+        on[SWITCH_TWIN] = pair;
         in->core->view.refit_stage = true;
     }
     build_overlays(in);

@@ -91,7 +91,7 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     bool active = s == core->focus.active, dropped = false;
     char name[UI_NAME_SIZE];
     snprintf(name, sizeof name, "spline.%s", spline->name);
-    const float right = core->view.more ? 2 * INSPECTOR_ICON : KIND;
+    const float right = core->view.on[SWITCH_MORE] ? 2 * INSPECTOR_ICON : KIND;
     struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - right, r.h};
     if (active && ui_line_is_open(ui, rename_line)) {
         if (ui_line(ui, label, rename_line) == UI_LINE_DONE && core_step(core, "Rename spline", 0))
@@ -107,7 +107,7 @@ static bool build_row(struct inspector *in, int s, struct rect r)
         dropped = event == UI_ROW_DROPPED;
     }
     struct rect swatch = {r.x, r.y, SWATCH, r.h};
-    if (!core->view.more) {
+    if (!core->view.on[SWITCH_MORE]) {
         const struct rect chip = {r.x + (SWATCH - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
         if (ui->pass == UI_PASS_DRAW) drawlist_rounded(ui->list, chip, 3, spline_list_color(core->document, s));
         ui_label_right(ui, (struct rect){label.x + label.w, r.y, KIND - 4, r.h},
@@ -166,7 +166,7 @@ void inspector_splines(struct inspector *in)
     inspector_more(in, count, MAX_ROWS, " splines; PgUp and PgDn show more");
 
     struct core *core = in->core;
-    const int offered = core->view.more ? sizeof buttons / sizeof buttons[0] : 1;
+    const int offered = core->view.on[SWITCH_MORE] ? sizeof buttons / sizeof buttons[0] : 1;
     const int pressed = inspector_icons(in, ui_row(ui, UI_ROW), buttons, offered);
     if (pressed >= 0) spline_list_change(core, pressed);
 }
@@ -431,7 +431,7 @@ static void build_wind_up(struct inspector *in)
                                       .fallback = row->fresh * period_frames(in),
                                       .step = row->step};
     struct rect r = ui_row(&in->ui, UI_ROW);
-    if (in->core->view.more) r.w -= UI_ROW + 2; // lines up, too
+    if (in->core->view.on[SWITCH_MORE]) r.w -= UI_ROW + 2; // lines up, too
     inspector_number(in, &number, &home, 0, r);
 }
 
@@ -496,7 +496,7 @@ void inspector_feel(struct inspector *in)
             inspector_idle(in, parameter_rows[pace[i]].name, "–");
         }
     }
-    if (in->core->view.more) build_settle(in);
+    if (in->core->view.on[SWITCH_MORE]) build_settle(in);
     build_wind_up(in);
 
     // Lag and gain of the channel or coordinate it drives; below each is room for the highest curve of any spline.
@@ -525,7 +525,7 @@ void inspector_feel(struct inspector *in)
     }
     if (ui->y == top) build_sentence(in);
     ui->y = fmaxf(ui->y, top + TEXT);
-    if (!in->core->view.more) return;
+    if (!in->core->view.on[SWITCH_MORE]) return;
     const struct rect line = ui_row(ui, UI_ROW), r = {line.x, line.y + 1, line.w, line.h - 2};
     ui_hint(ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
     if (ui_button(ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
@@ -737,7 +737,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
 
     struct rect r = ui_row(&in->ui, UI_ROW);
     const bool follows = param_follows(&spline->parameter[parameter]);
-    const bool may_follow = row->kind == PARAMETER_TRACK && (in->core->view.more || follows);
+    const bool may_follow = row->kind == PARAMETER_TRACK && (in->core->view.on[SWITCH_MORE] || follows);
     if (may_follow) r.w -= UI_ROW + 2;
     const struct param *param = &spline->parameter[parameter];
     const struct rect field = follows ? inspector_label(in, r, row->name) : r;

@@ -484,10 +484,10 @@ void record_show(struct stage *stage, struct core *core)
     const struct tail *shown = is_held || core->input.hover.thing == &thing_body ? tail_of(document, rig) : NULL;
     bool moves = false;
     for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
-    if (moves && !core->view.overlays.trail)
+    if (moves && !core->view.on[SWITCH_TRAIL])
         path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
     if (!is_held || !record->running) {
-        if (core->step.record_armed && document_tail(document, 0))
+        if (core->view.on[SWITCH_RECORD] && document_tail(document, 0))
             show_sign(core, false, "Drag the body to record it");
         return;
     }
@@ -591,7 +591,7 @@ static void place_body(struct stage *stage, struct core *core)
     const int rig = stage->body_drag.rig;
     double offset[3];
     body_drag_way(stage, core, offset);
-    const bool is_tail = tail_of(core->document, rig), keys = core->step.auto_key && is_tail;
+    const bool is_tail = tail_of(core->document, rig), keys = core->view.on[SWITCH_AUTO_KEY] && is_tail;
     char report[REPORT_SIZE] = "", why[STOPPED_SIZE] = "";
     bool any = false;
     int swings = -1;
@@ -658,7 +658,7 @@ void body_drag_advance(struct stage *stage, const struct core *core)
 
     // As the splines' limits will limit it in place_body() or a recording.
     const struct tail *tail = tail_of(document, stage->body_drag.rig);
-    const bool keys = core->step.auto_key || stage->record.running || record_has_motion(stage);
+    const bool keys = core->view.on[SWITCH_AUTO_KEY] || stage->record.running || record_has_motion(stage);
     if (!tail) offset[1] = 0; // a character stays on its ground
     for (int k = 0; tail && k < 3; k++) {
         const int track = tail->position[k].track;
@@ -822,7 +822,7 @@ static void body_moves(void *room, struct core *core)
     struct stage *stage = room;
     if (stage->body_drag.begun) return;
     stage->body_drag.begun = true;
-    if (core->step.record_armed && tail_of(core->document, stage->body_drag.rig)) record_begin(stage, core);
+    if (core->view.on[SWITCH_RECORD] && tail_of(core->document, stage->body_drag.rig)) record_begin(stage, core);
 }
 
 static enum drag_answer body_event(void *room, struct core *core, const struct event *event)

@@ -38,18 +38,18 @@ static void add_character(struct stage *stage, const struct core *core, int rig,
     if (!rig_pose(&posing, rig, core->view.playback.position, NULL, &posed)) return;
     const struct figure *figure = posed.character.figure;
     struct stage_character *shown = &view->characters[view->character_count++];
-    *shown =
-        (struct stage_character){.figure = figure,
-                                 .morph = posed.character.morph,
-                                 .rig = n,
-                                 .is_twin = aside > 0,
-                                 .coarse = how->compare || document_count_rigs(core->document, RIG_CHARACTER) > 1,
-                                 .map_coordinate = -1,
-                                 .map_axis = how->axis};
+    *shown = (struct stage_character){.figure = figure,
+                                      .morph = posed.character.morph,
+                                      .rig = n,
+                                      .is_twin = aside > 0,
+                                      .coarse = core->view.on[SWITCH_TWIN] ||
+                                                document_count_rigs(core->document, RIG_CHARACTER) > 1,
+                                      .map_coordinate = -1,
+                                      .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k] + (k == 0 ? aside : 0.0f);
     const int drive = how->drive < character->drive_count ? how->drive : 0;
     const bool is_painted = core->focus.brush.on && n == how->character;
-    if ((how->mapped || is_painted) && character->drive_count > 0)
+    if ((core->view.on[SWITCH_PHASE_MAP] || is_painted) && character->drive_count > 0)
         shown->map_coordinate = figure_find(figure, character->drives[drive].name);
 
     // Shadows under the whole and under each sole.
@@ -67,7 +67,7 @@ static void pose_soft(struct stage *stage, const struct core *core, int rig, int
 {
     const struct figure *figure = models_figure(core->models, n);
     if (!figure) return;
-    if (!core->focus.characters.compare) {
+    if (!core->view.on[SWITCH_TWIN]) {
         add_character(stage, core, rig, n, 0.0f);
     } else {
         add_character(stage, core, rig, n, -pair_offset(figure));
@@ -77,7 +77,7 @@ static void pose_soft(struct stage *stage, const struct core *core, int rig, int
 
 static float character_aside(const struct core *core, int n)
 {
-    return core->focus.characters.compare ? pair_offset(models_figure(core->models, n)) : 0.0f;
+    return core->view.on[SWITCH_TWIN] ? pair_offset(models_figure(core->models, n)) : 0.0f;
 }
 
 static uint64_t hash_characters(uint64_t sum, const struct stage_view *view)
@@ -146,7 +146,7 @@ void characters_show(const struct stage *stage, struct core *core)
     const struct coordinate *coordinate = characters_coordinate(core);
     const struct rect r = core->view.layout.stage;
     struct drawlist *list = &core->list;
-    if ((core->focus.characters.mapped || core->focus.brush.on) && coordinate) {
+    if ((core->view.on[SWITCH_PHASE_MAP] || core->focus.brush.on) && coordinate) {
         // The legend. Angles as in the complex plane: in step to the right, a quarter ahead at the top.
         const struct rect box = characters_legend(core);
         const float x = box.x + box.w / 2, y = box.y + 80;
@@ -185,7 +185,7 @@ void characters_show(const struct stage *stage, struct core *core)
         drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
                       theme()->text_dim, left);
     }
-    for (int i = 0; core->focus.characters.compare && i < stage->view.character_count; i++) {
+    for (int i = 0; core->view.on[SWITCH_TWIN] && i < stage->view.character_count; i++) {
         const struct stage_character *shown = &stage->view.characters[i];
         const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
         float xy[2];

@@ -56,7 +56,7 @@ static float model_aside(const struct core *core, int n)
 {
     const int rig = document_find_rig(core->document, RIG_MODEL, n);
     const struct imported *imported = models_imported(core->models, core->document, rig);
-    if (!core->view.overlays.original || !imported) return 0.0f;
+    if (!core->view.on[SWITCH_ORIGINAL] || !imported) return 0.0f;
     const float *lo = imported->gltf.lo, *hi = imported->gltf.hi;
     return ASIDE * (float)core->document->rigs[rig]->model.scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
 }
@@ -89,7 +89,7 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
 
     // The clip without its chains, beside it.
     posing = (struct posing){.document = core->document, .models = core->models, .memory = POSE_BESIDE};
-    if (!core->view.overlays.original || view->model_count == STAGE_MAX_MODELS) return;
+    if (!core->view.on[SWITCH_ORIGINAL] || view->model_count == STAGE_MAX_MODELS) return;
     if (!rig_pose_body(&posing, rig, core->view.playback.position, NULL, &posed)) return;
     const float by = model_aside(core, n);
     shown = &view->models[view->model_count++];

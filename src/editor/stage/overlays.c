@@ -341,12 +341,13 @@ static bool proxy_show(struct stage *stage, struct core *core, const struct posi
     return true;
 }
 
-void onion_show(struct stage *stage, struct core *core)
+/// Onion skin (O): the outline of the tail or soft character, or the chain's line, at the active spline's knots nearest to the playhead.
+static void onion_show(struct stage *stage, struct core *core)
 {
     const struct document *document = core->document;
     const struct spline *spline = core_active_spline(core);
     const int rig = overlay_pose_rig(stage, core);
-    if (!core->view.overlays.onion || !spline || rig < 0) return;
+    if (!core->view.on[SWITCH_ONION] || !spline || rig < 0) return;
     const int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
     if (spline->knot_count == 0 && track >= 0) spline = document->splines[track]; // its equilibrium's knots
 
@@ -375,12 +376,13 @@ void onion_show(struct stage *stage, struct core *core)
     }
 }
 
-void ghost_show(struct stage *stage, struct core *core)
+/// Ghost (F4): the same at a knot that is dragged or was just nudged, unless that pose is shown.
+static void ghost_show(struct stage *stage, struct core *core)
 {
     // The active spline's knot that is held by the pointer, or the only selected one after a nudge.
     const struct document *document = core->document;
     const struct drag *drag = &core->input.drag;
-    const struct spline *spline = core->view.overlays.ghost ? core_active_spline(core) : NULL;
+    const struct spline *spline = core->view.on[SWITCH_GHOST] ? core_active_spline(core) : NULL;
     int at = -1;
     if (spline && drag->owner && drag->knot && drag->moved) at = spline_find_id(spline, drag->knot);
     if (spline && !drag->owner && core->step.nudged_seconds > 0)
@@ -529,10 +531,11 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
     }
 }
 
-void trail_show(struct stage *stage, struct core *core)
+/// Motion arc (Shift+O): the point's path within two seconds of the playhead, with a mark per frame.
+static void trail_show(struct stage *stage, struct core *core)
 {
     float place[3], xy[2];
-    if (!core->view.overlays.trail) return;
+    if (!core->view.on[SWITCH_TRAIL]) return;
     const struct rig_point point = overlay_point(stage, core);
     if (!point_exists(core, point)) return;
     path_show(stage, core, TRAIL_OF_TIP, point);
@@ -543,6 +546,13 @@ void trail_show(struct stage *stage, struct core *core)
                           : point_place(core, point, core->view.playback.position, place) &&
                                 stage_project_point(stage, core->view.layout.stage, place, xy);
     if (seen) drawlist_circle(&core->list, xy, NOW, 1.5f, theme()->playhead);
+}
+
+void overlays_show(struct stage *stage, struct core *core)
+{
+    onion_show(stage, core);
+    ghost_show(stage, core);
+    trail_show(stage, core);
 }
 
 // Pins: hover, drags parallel to the screen, keys and markers.
@@ -596,7 +606,7 @@ static const struct pin *next_marker(const struct core *core, struct pin_place *
     const struct pin *pin;
     do {
         pin = pins_next(core->document, place);
-    } while (pin && core->focus.characters.compare && core->document->rigs[place->rig]->kind == RIG_CHARACTER);
+    } while (pin && core->view.on[SWITCH_TWIN] && core->document->rigs[place->rig]->kind == RIG_CHARACTER);
     return pin;
 }
 
@@ -625,7 +635,7 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
         hover = (struct hover){
             .thing = &thing_pin, .rig = place.rig, .joint = pin->point, .pin = pin->id, .x = xy[0], .y = xy[1]};
     }
-    if (hover.thing || found->thing || core->focus.characters.compare) return hover;
+    if (hover.thing || found->thing || core->view.on[SWITCH_TWIN]) return hover;
 
     // A vertex, cached while pointer and picture stay. Playback under a still pointer highlights nothing.
     struct pointed *pointed = &stage->pointed;

@@ -178,7 +178,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
         float nearest = STRAND_REACH;
         const double back = ago * document->fps * document->substeps * core->view.playback.speed;
         double position = core->view.playback.position - back;
-        if (position < first && core->view.playback.looping) position = last - (first - position);
+        if (position < first && core->view.on[SWITCH_LOOP]) position = last - (first - position);
         position = fmax(position, first);
         for (int s = 0; s < stage->strand_count; s++) {
             const int rig = stage->strands[s].rig;
@@ -340,7 +340,7 @@ void stage_fit(struct stage *stage, const struct core *core)
     }
     stage->camera = camera_default();
     if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
-        stage->camera.azimuth = core->focus.characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+        stage->camera.azimuth = core->view.on[SWITCH_TWIN] ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     else if (seen[RIG_MODEL] && !seen[RIG_TAIL]) { // as the first one stands
         const int rig = document_next_rig(document, RIG_MODEL, -1);
         const struct imported *first = models_imported(core->models, document, rig);
@@ -443,9 +443,7 @@ void stage_show(struct stage *stage, struct core *core)
         drawlist_text_fit(&core->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
                           THEME_TEXT_NORMAL, theme()->text_dim, text);
     }
-    onion_show(stage, core);
-    ghost_show(stage, core);
-    trail_show(stage, core);
+    overlays_show(stage, core);
     floors_show(stage, core);
     characters_show(stage, core);
 

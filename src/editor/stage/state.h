@@ -359,17 +359,12 @@ bool tail_drag_holds(const struct document *document, int rig, int joint);
 
 /// The tail or chain that the active spline moves, else the first; -1 if none is visible.
 int overlay_rig(const struct stage *stage, const struct core *core);
-/// Onion skin (O): the outline of the tail or soft character, or the chain's line, at the active spline's knots nearest to the playhead.
-void onion_show(struct stage *stage, struct core *core);
-
-/// Ghost (F4): the same at a knot that is dragged or was just nudged, unless that pose is shown.
-void ghost_show(struct stage *stage, struct core *core);
-
 /// The point for the arc: the tip of the tail or chain that the active spline moves, else the vertex of the selected character that moves
 /// most. It may not exist (point_exists()).
 struct rig_point overlay_point(struct stage *stage, const struct core *core);
-/// Motion arc (Shift+O): the point's path within two seconds of the playhead, with a mark per frame.
-void trail_show(struct stage *stage, struct core *core);
+/// Onion skin, ghost and motion arc, whichever are on: one function each, which the last function of overlays.c calls.
+void overlays_show(struct stage *stage, struct core *core);
+
 /// The same for any point of a rig.
 void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point);
 
