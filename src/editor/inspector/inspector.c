@@ -298,23 +298,85 @@ bool inspector_changed(enum ui_change change) { return change == UI_DROP || chan
 bool inspector_step(struct inspector *in, enum ui_change change, const char *label, const char *what)
 {
     struct core *core = in->core;
-    switch (change) {
-    case UI_NONE:
-        return false;
-    case UI_DRAG:
+    if (change == UI_CANCEL && history_is_open(core->history)) history_restart(core->history);
+    if (change == UI_NONE || change == UI_CANCEL || change == UI_DROP) return false; // inspector_event() ends a drag
+    if (!core_step(core, label, change == UI_NUDGE ? core_merge_key(core, ui_id(&in->ui, what)) : 0)) {
+        if (change != UI_DRAG) return false;
         core->step.error = (struct error){0};
-        if (!core_step(core, label, 0)) history_restart(core->history);
-        core->step.ends = false;
-        return true;
-    case UI_CANCEL:
-    case UI_DROP:
-        if (history_is_open(core->history) && change == UI_CANCEL) history_restart(core->history);
-        return false; // inspector_event() sees that the drag is over
-    case UI_NUDGE:
-    case UI_SET:
-        return core_step(core, label, change == UI_NUDGE ? core_merge_key(core, ui_id(&in->ui, what)) : 0);
+        history_restart(core->history);
     }
-    return false;
+    if (change == UI_DRAG) core->step.ends = false;
+    return true;
+}
+
+/// Opens the undo step of a row that was used.
+static bool opens(struct inspector *in, bool used, const char *undo)
+{
+    return used && (!undo || inspector_step(in, UI_SET, undo, NULL));
+}
+
+bool inspector_button(struct inspector *in, struct rect r, const struct row *row)
+{
+    ui_hint(&in->ui, r, row->hint);
+    return opens(in, ui_button(&in->ui, r, row->name, row->label, row->lit), row->undo);
+}
+
+bool inspector_icon(struct inspector *in, struct rect r, const struct row *row)
+{
+    return opens(in, ui_icon_button(&in->ui, r, row->name, row->icon, row->lit, row->hint), row->undo);
+}
+
+bool inspector_choice(struct inspector *in, const struct row *row, int *chosen)
+{
+    const struct rect r = row->label ? inspector_labelled(in, row->label) : ui_row(&in->ui, UI_ROW);
+    ui_hint(&in->ui, r, row->hint);
+    return opens(in, ui_segments(&in->ui, r, row->name, row->choices, row->count, chosen), row->undo);
+}
+
+bool inspector_toggle(struct inspector *in, struct rect r, const struct row *row, bool *on)
+{
+    if (row->label) r = inspector_label(in, r, row->label);
+    ui_hint(&in->ui, r, row->hint);
+    return opens(in, ui_toggle(&in->ui, r, row->name, on), row->undo);
+}
+
+bool inspector_line(struct inspector *in, struct rect r, const struct row *row)
+{
+    return opens(in, ui_line(&in->ui, r, row->name) == UI_LINE_DONE, row->undo);
+}
+
+int inspector_icons(struct inspector *in, struct rect r, const struct row *rows, int count)
+{
+    int pressed = -1;
+    for (int i = 0; i < count; i++) {
+        const struct rect icon = {r.x - 2 + (float)(i * (INSPECTOR_ICON + 6)), r.y, INSPECTOR_ICON, r.h};
+        if (inspector_icon(in, icon, &rows[i])) pressed = i;
+    }
+    return pressed;
+}
+
+int inspector_buttons(struct inspector *in, const struct row *rows, int count)
+{
+    enum { GAP = 4 };
+    struct rect r = ui_row(&in->ui, UI_ROW);
+    int pressed = -1;
+    r.w = (r.w - (float)((count - 1) * GAP)) / (float)count;
+    for (int i = 0; i < count; i++, r.x += r.w + GAP) {
+        if (inspector_button(in, r, &rows[i])) pressed = i;
+    }
+    return pressed;
+}
+
+int inspector_list(struct inspector *in, const struct dropdown *list, const struct ui_item *items, int count,
+                   int chosen)
+{
+    const int picked = ui_popup_list(&in->ui, list->name, items, count, chosen);
+    return opens(in, picked >= 0, list->undo) ? picked : -1;
+}
+
+bool inspector_picks(struct inspector *in, const struct dropdown *list, bool picked)
+{
+    return opens(in, picked, list->undo);
 }
 
 double number_at(const struct number_row *row, const void *of)
@@ -405,10 +467,10 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
         snprintf(in->ui.complaint, sizeof in->ui.complaint, "%s: expected a whole number, got %g", row->label, value);
         return UI_NONE;
     }
-    if (row->undo) {
+    if (row->undo && !home->settles) {
         change_number(in, row, home, which, change, value);
-    } else if (home->settles ? inspector_changed(change) : change != UI_NONE) {
-        home->set(in, which, value, NULL);
+    } else if (opens(in, home->settles ? inspector_changed(change) : change != UI_NONE, row->undo)) {
+        home->set(in, which, value, &in->core->step.error);
     }
     if (home->settles && change == UI_DRAG) in->dragged = value;
     return change;
@@ -439,7 +501,7 @@ int inspector_spline_list(struct inspector *in, const struct dropdown *list, int
     struct ui_item items[INSPECTOR_MAX_SPLINES];
     int splines[INSPECTOR_MAX_SPLINES] = {0}, row;
     const int count = inspector_spline_items(in, NULL, chosen, items, splines, &row);
-    int picked = ui_popup_list(&in->ui, list->name, items, count, row);
+    const int picked = inspector_list(in, list, items, count, row);
     return picked < 0 ? -1 : splines[picked];
 }
 
@@ -451,6 +513,7 @@ void inspector_offer(struct inspector *in, const struct dropdown *list)
 void inspector_dropdown(struct inspector *in, const struct dropdown *list, struct rect r, int which, const char *text,
                         uint32_t color)
 {
+    if (list->label) r = inspector_label(in, r, list->label);
     ui_hint(&in->ui, r, list->hint);
     ui_dropdown(&in->ui, r, list->name, which, text, color);
     inspector_offer(in, list);
@@ -478,24 +541,6 @@ void inspector_idle(struct inspector *in, const char *label, const char *text)
     ui_label(&in->ui, inspector_labelled(in, label), text, theme()->text_dim);
 }
 
-bool inspector_choice(struct inspector *in, const char *label, const char *hint, const char *name,
-                      const struct ui_choice *choices, int count, int *chosen)
-{
-    const struct rect r = inspector_labelled(in, label);
-    ui_hint(&in->ui, r, hint);
-    return ui_segments(&in->ui, r, name, choices, count, chosen);
-}
-
-int inspector_icons(struct inspector *in, struct rect r, const struct icon_button *buttons, int count)
-{
-    int pressed = -1;
-    for (int i = 0; i < count; i++) {
-        const struct rect icon = {r.x - 2 + (float)(i * (INSPECTOR_ICON + 6)), r.y, INSPECTOR_ICON, r.h};
-        if (ui_icon_button(&in->ui, icon, buttons[i].name, buttons[i].icon, false, buttons[i].hint)) pressed = i;
-    }
-    return pressed;
-}
-
 int inspector_first_row(int count, int chosen, int most)
 {
     struct ui_list list = {.view = (float)most, .content = (float)count};
@@ -519,28 +564,25 @@ static bool set_scene(struct inspector *in, int which, double number, struct err
 {
     const struct document *document = in->core->document;
     const int whole = (int)lround(number);
-    (void)error;
     if (which == ROW_RATE) spline_list_fps(in->core, number);
     if (which == ROW_FIRST) spline_list_range(in->core, whole, document->last_frame);
     if (which == ROW_LAST) spline_list_range(in->core, document->first_frame, whole);
-    if (which == ROW_SUBSTEPS && core_step(in->core, "Set substeps", 0))
-        edit_substeps(in->core->document, whole, &in->core->step.error);
-    return true;
+    return which != ROW_SUBSTEPS || edit_substeps(in->core->document, whole, error);
 }
 
 static const struct number_row scene_rows[SCENE_ROWS] = {
-    [ROW_RATE] = {NUMBER_AT(struct document, fps), .name = "scene.fps", .label = "rate", .unit = "fps",
+    [ROW_RATE] = {NUMBER_AT(struct document, fps), NAMED("scene.fps", "rate"), .unit = "fps",
                   .hint = "Frames per second; asks whether to keep frames or seconds", TYPED(0.001, SCENE_MAX_FPS),
                   .fallback = 24, .step = 1},
-    [ROW_FIRST] = {WHOLE_AT(struct document, first_frame), .name = "scene.first", .label = "first",
+    [ROW_FIRST] = {WHOLE_AT(struct document, first_frame), NAMED("scene.first", "first"),
                    .hint = "First frame of the scene", TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN,
                    .step = 1},
-    [ROW_LAST] = {WHOLE_AT(struct document, last_frame), .name = "scene.last", .label = "last",
+    [ROW_LAST] = {WHOLE_AT(struct document, last_frame), NAMED("scene.last", "last"),
                   .hint = "Last frame of the scene; in a loop it repeats the first",
                   TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1},
-    [ROW_SUBSTEPS] = {WHOLE_AT(struct document, substeps), .name = "scene.substeps", .label = "substeps",
-                      .hint = "Samples per frame, for motion blur", TYPED(1, SCENE_MAX_SUBSTEPS), .fallback = 1,
-                      .step = 1},
+    [ROW_SUBSTEPS] = {WHOLE_AT(struct document, substeps), NAMED("scene.substeps", "substeps"),
+                      .hint = "Samples per frame, for motion blur", .undo = "Set substeps",
+                      TYPED(1, SCENE_MAX_SUBSTEPS), .fallback = 1, .step = 1},
 };
 
 void inspector_scene(struct inspector *in)
@@ -637,22 +679,22 @@ void inspector_history(struct inspector *in)
 enum { FIELD_FRAME, FIELD_VALUE, FIELD_PHASE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
 
 static const struct number_row knot_rows[FIELDS] = {
-    [FIELD_FRAME] = {NUMBER_AT(struct knot, frame), .name = "frame", .label = "frame",
+    [FIELD_FRAME] = {NUMBER_AT(struct knot, frame), NAMED("frame", "frame"),
                      .hint = "Frame of the first selected knot; the others move with it", .undo = "Move knots",
                      TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1},
-    [FIELD_VALUE] = {NUMBER_AT(struct knot, value), .name = "value", .label = "value",
+    [FIELD_VALUE] = {NUMBER_AT(struct knot, value), NAMED("value", "value"),
                      .hint = "Type to set all selected knots; drag to shift each by the same amount",
                      .undo = "Set values", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
                      .decimals = 3},
-    [FIELD_PHASE] = {NUMBER_AT(struct knot, phase), .name = "phase", .label = "phase",
+    [FIELD_PHASE] = {NUMBER_AT(struct knot, phase), NAMED("phase", "phase"),
                      .hint = "Type to set all selected knots; drag to shift each by the same amount",
                      .undo = "Set phases", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
                      .decimals = 3},
-    [FIELD_SLOPE] = {NUMBER_AT(struct knot, slope), .name = "slope", .label = "slope", .unit = "/s",
+    [FIELD_SLOPE] = {NUMBER_AT(struct knot, slope), NAMED("slope", "slope"), .unit = "/s",
                      .hint = "Type to set all selected knots; drag to shift each by the same amount",
                      .undo = "Set slopes", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.05,
                      .decimals = 2},
-    [FIELD_STIFFNESS] = {NUMBER_AT(struct knot, stiffness), .name = "stiffness", .label = "stiffness", .unit = "1/s",
+    [FIELD_STIFFNESS] = {NUMBER_AT(struct knot, stiffness), NAMED("stiffness", "stiffness"), .unit = "1/s",
                          .hint = "How firmly the slopes hold; 1000 is firm", .undo = "Set stiffness",
                          TYPED(0.001, INSPECTOR_NO_LIMIT), .fallback = KNOT_DEFAULT_STIFFNESS, .step = 10,
                          .decimals = 1},
@@ -750,25 +792,6 @@ static int all_hold(const struct inspector *in, bool *any_still)
     return all > HOLDS_STILL ? -1 : all;
 }
 
-struct knot_button {
-    const char *name, *label, *hint;
-    bool lit;
-};
-
-/// A row of buttons; returns the pressed one, or -1.
-static int build_buttons(struct inspector *in, int count, const struct knot_button *buttons)
-{
-    enum { GAP = 4 };
-    struct rect r = ui_row(&in->ui, UI_ROW);
-    int pressed = -1;
-    r.w = (r.w - (float)((count - 1) * GAP)) / (float)count;
-    for (int i = 0; i < count; i++, r.x += r.w + GAP) {
-        ui_hint(&in->ui, r, buttons[i].hint);
-        if (ui_button(&in->ui, r, buttons[i].name, buttons[i].label, buttons[i].lit)) pressed = i;
-    }
-    return pressed;
-}
-
 static void build_holds(struct inspector *in)
 {
     bool any_still;
@@ -776,15 +799,16 @@ static void build_holds(struct inspector *in)
     bool settles = true;
     for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
         settles &= knot_at(in->core->document, at)->settles;
-    const int pressed = build_buttons(
-        in, 4,
-        (const struct knot_button[]){
-            {"holds.value", "Value", "Hold the value and leave the phase free", lit == HOLDS_VALUE},
-            {"holds.pose", "Pose", "Hold every part that lags as it is seen now (P)", lit == HOLDS_POSE},
-            {"holds.still", "Still", "The motion comes to rest at the equilibrium, and begins from rest (Shift+P)",
-             lit == HOLDS_STILL},
-            {"settles", "Settle", "Let the motion stay here: it overshoots the value and swings about it (Alt+P)",
-             settles}});
+    const struct row rows[] = {
+        {NAMED("holds.value", "Value"), .hint = "Hold the value and leave the phase free", .lit = lit == HOLDS_VALUE},
+        {NAMED("holds.pose", "Pose"), .hint = "Hold every part that lags as it is seen now (P)",
+         .lit = lit == HOLDS_POSE},
+        {NAMED("holds.still", "Still"),
+         .hint = "The motion comes to rest at the equilibrium, and begins from rest (Shift+P)",
+         .lit = lit == HOLDS_STILL},
+        {NAMED("settles", "Settle"),
+         .hint = "Let the motion stay here: it overshoots the value and swings about it (Alt+P)", .lit = settles}};
+    const int pressed = inspector_buttons(in, rows, 4);
     if (pressed == 3) {
         core_toggle_settles(in->core, 0);
     } else if (pressed >= 0 && pressed != lit) {
@@ -838,13 +862,13 @@ static bool has_slope(const struct inspector *in, unsigned id)
 static void build_slopes(struct inspector *in, bool sloped)
 {
     static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
-    const int pressed = build_buttons(
-        in, 3,
-        (const struct knot_button[]){
-            {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", false},
-            {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", false},
-            {"slope.switch", sloped ? "Remove" : "Add",
-             sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)", false}});
+    const struct row rows[] = {
+        {NAMED("slope.flat", "Flat"), .hint = "Make the slopes flat (Shift+T)"},
+        {NAMED("slope.smooth", "Smooth"), .hint = "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
+        {.name = "slope.switch",
+         .label = sloped ? "Remove" : "Add",
+         .hint = sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)"}};
+    const int pressed = inspector_buttons(in, rows, 3);
     if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 
@@ -881,12 +905,11 @@ void inspector_knot(struct inspector *in)
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
         inspector_idle(in, "knots", frames);
         inspector_idle(in, "values", values);
-        const int pressed =
-            build_buttons(in, 3,
-                          (const struct knot_button[]){
-                              {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)", false},
-                              {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)", false},
-                              {"knot.all", "All", "Select all knots of the spline (Ctrl+A)", false}});
+        static const struct row rows[] = {
+            {NAMED("knot.insert", "Insert"), .hint = "Insert a knot on the curve at the playhead (I)"},
+            {NAMED("knot.next", "Next"), .hint = "Go to the next knot after the playhead (Alt+.)"},
+            {NAMED("knot.all", "All"), .hint = "Select all knots of the spline (Ctrl+A)"}};
+        const int pressed = inspector_buttons(in, rows, 3);
         if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, HOLDS_VALUE);
         if (pressed == 1) core_visit_neighbour(in->core, 1);
         if (pressed == 2) core_select_all(in->core, false);
@@ -928,17 +951,17 @@ static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHAR
 enum { ROW_FRAME, ROW_POINT, PIN_ROWS = ROW_POINT + 4 };
 
 static const struct number_row pin_rows[PIN_ROWS] = {
-    {NUMBER_AT(struct pin, frame), .name = "pin.frame", .label = "frame",
-     .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)", .undo = "Move pin in time", .fallback = NAN, .step = 1},
+    {NUMBER_AT(struct pin, frame), NAMED("pin.frame", "frame"), .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)",
+     .undo = "Move pin in time", .fallback = NAN, .step = 1},
     {WHOLE_AT(struct pin, point), .name = "pin.point", .hint = "The pinned point", .undo = "Pin another point",
      .fallback = NAN, .step = 1},
-    {NUMBER_AT(struct pin, to[0]), .name = "pin.x", .label = "x", .unit = "m",
+    {NUMBER_AT(struct pin, to[0]), NAMED("pin.x", "x"), .unit = "m",
      .hint = "Target of the point: across; 0 is the middle", .undo = "Move pin",
      TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
-    {NUMBER_AT(struct pin, to[1]), .name = "pin.y", .label = "y", .unit = "m", .hint = "Target of the point: height",
+    {NUMBER_AT(struct pin, to[1]), NAMED("pin.y", "y"), .unit = "m", .hint = "Target of the point: height",
      .undo = "Move pin", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005,
      .decimals = 3},
-    {NUMBER_AT(struct pin, to[2]), .name = "pin.z", .label = "z", .unit = "m", .hint = "Target of the point: depth",
+    {NUMBER_AT(struct pin, to[2]), NAMED("pin.z", "z"), .unit = "m", .hint = "Target of the point: depth",
      .undo = "Move pin", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005,
      .decimals = 3},
 };
@@ -995,9 +1018,10 @@ void inspector_pins(struct inspector *in)
         ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
         ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
         if (pressed) pins_visit(core, pin);
-        if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin"))
-            removed = core_step(core, "Delete pin", 0) &&
-                      edit_pin_remove(core->document, place.rig, pin->id, &core->step.error);
+        const struct row remover = {
+            .name = remove, .icon = UI_ICON_DELETE, .hint = "Remove this pin", .undo = "Delete pin"};
+        removed = inspector_icon(in, button, &remover) &&
+                  edit_pin_remove(core->document, place.rig, pin->id, &core->step.error);
     }
     if (!removed) inspector_more(in, count, MAX_PINS, " pins; , and . show more");
     if (!pins_selected(core, &owner)) return;

@@ -137,10 +137,10 @@ void inspector_remove_rig(struct inspector *in, int unused)
 
 void inspector_rigs(struct inspector *in)
 {
-    static const struct icon_button buttons[] = {
-        {"rig.add", "Add a tail, a character, a chain … (A)", UI_ICON_ADD},
-        {"rig.copy", "Copy this rig, beside it", UI_ICON_COPY},
-        {"rig.delete", "Remove this rig, with its splines or without (Shift+Del)", UI_ICON_DELETE},
+    static const struct row buttons[] = {
+        {ICON("rig.add", UI_ICON_ADD), .hint = "Add a tail, a character, a chain … (A)"},
+        {ICON("rig.copy", UI_ICON_COPY), .hint = "Copy this rig, beside it"},
+        {ICON("rig.delete", UI_ICON_DELETE), .hint = "Remove this rig, with its splines or without (Shift+Del)"},
     };
     const int count = in->core->document->rig_count, first = inspector_first_row(count, in->selected, RIG_ROWS);
     if (count == 0) ui_paragraph(&in->ui, "Nothing is on the stage yet.", theme()->text_dim);
@@ -229,7 +229,7 @@ static void choose_added(struct inspector *in, const struct dropdown *list)
     if (document_find_rig(document, RIG_MODEL, 0) >= 0)
         add_item(&menu, (struct choice){ADD_CHAIN, 0}, "chain", "Chain from the selected bone (J)");
     add_item(&menu, (struct choice){ADD_SPLINE, 0}, "spline", "Spline");
-    const int picked = ui_popup_list(&in->ui, list->name, menu.items, menu.count, -1);
+    const int picked = inspector_list(in, list, menu.items, menu.count, -1);
     if (picked >= 0) carry_out(in, menu.choices[picked]);
 }
 
@@ -264,26 +264,24 @@ static const struct {
     {AXIS_BLINK, {"blink", "eyelids", 0}},
 };
 
-static const char rename_line[] = "tail.rename";
-
 enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
 
 static const struct number_row tail_rows[] = {
-    [ROW_X] = {NUMBER_AT(struct rig, tail.position[0].value), .name = "position.x", .label = "x", .unit = "m",
+    [ROW_X] = {NUMBER_AT(struct rig, tail.position[0].value), NAMED("position.x", "x"), .unit = "m",
                .hint = "Position of the body along x", .undo = "Move body", TYPED(-1e6, 1e6), .step = 0.01,
                .decimals = 3},
-    {NUMBER_AT(struct rig, tail.position[1].value), .name = "position.y", .label = "y", .unit = "m",
+    {NUMBER_AT(struct rig, tail.position[1].value), NAMED("position.y", "y"), .unit = "m",
      .hint = "Position of the body along y", .undo = "Move body", TYPED(-1e6, 1e6), .fallback = 0.26, .step = 0.01,
      .decimals = 3},
-    {NUMBER_AT(struct rig, tail.position[2].value), .name = "position.z", .label = "z", .unit = "m",
+    {NUMBER_AT(struct rig, tail.position[2].value), NAMED("position.z", "z"), .unit = "m",
      .hint = "Position of the body along z", .undo = "Move body", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    [ROW_JOINTS] = {WHOLE_AT(struct rig, tail.joints), .name = "joints", .label = "joints",
+    [ROW_JOINTS] = {WHOLE_AT(struct rig, tail.joints), NAMED("joints", "joints"),
                     .hint = "More joints bend more smoothly; shape and swing stay the same", .undo = "Set joints",
                     BAR(1, 64), TYPED(1, TAIL_MAX_JOINTS), .fallback = TAIL_DEFAULT_JOINTS, .step = 1},
-    [ROW_LENGTH] = {NUMBER_AT(struct rig, tail.length), .name = "length", .label = "length", .unit = "m",
+    [ROW_LENGTH] = {NUMBER_AT(struct rig, tail.length), NAMED("length", "length"), .unit = "m",
                     .hint = "Length of the tail; the body scales with it", .undo = "Set length", BAR(0.2, 4),
                     TYPED(1e-3, 1e6), .fallback = TAIL_DEFAULT_LENGTH, .step = 0.05, .decimals = 2},
-    [ROW_TURN] = {NUMBER_AT(struct rig, chain.turn), .name = "chain.turn", .label = "turn", .unit = "°",
+    [ROW_TURN] = {NUMBER_AT(struct rig, chain.turn), NAMED("chain.turn", "turn"), .unit = "°",
                   .hint = "Turns the axes of side and up about the chain's own direction",
                   .undo = "Turn chain's axes", BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
 };
@@ -292,13 +290,12 @@ static int shown_rig(const struct inspector *in) { return in->rig; }
 
 static const struct number_home of_shown = {.rig = shown_rig};
 
-/// Lets the body follow a spline, or stop, in its own undo step.
+/// Lets the body follow a spline, or stop.
 static void follow(struct inspector *in, int k, struct param param)
 {
     struct rig changed = *inspector_shown(in);
     changed.tail.position[k] = param;
-    if (core_step(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
-        edit_rig_set(in->core->document, in->rig, &changed, &in->core->step.error);
+    edit_rig_set(in->core->document, in->rig, &changed, &in->core->step.error);
 }
 
 static void choose_place(struct inspector *in, const struct dropdown *list)
@@ -308,18 +305,20 @@ static void choose_place(struct inspector *in, const struct dropdown *list)
     if (picked >= 0) follow(in, k, param_track(picked));
 }
 
-static const struct dropdown place_list = {"place", "The spline it follows, sample by sample", choose_place};
+static const struct dropdown place_list = {.name = "place",
+                                           .hint = "The spline it follows, sample by sample",
+                                           .undo = "Follow spline",
+                                           .build = choose_place};
 
 /// A coordinate: a number or the followed spline, and the button between the two.
 static void build_coordinate(struct inspector *in, const struct tail *tail, int k)
 {
     const int track = tail->position[k].track;
     const bool follows = track >= 0;
-    const char *hint = follows ? "Stop following; stay at the current position" : "Follow a spline (in metres)";
     struct rect r = ui_row(&in->ui, UI_ROW), icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
-    char button[32];
+    char name[32];
     r.w -= INSPECTOR_ICON + 4;
-    snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
+    snprintf(name, sizeof name, "position.%s.follow", coordinate_name(k));
     const struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (follows) {
         inspector_spline_field(in, &place_list, inspector_label(in, r, coordinate_name(k)), k, track);
@@ -327,7 +326,12 @@ static void build_coordinate(struct inspector *in, const struct tail *tail, int 
         inspector_number(in, &tail_rows[ROW_X + k], &of_shown, k, r);
         if (in->core->document->spline_count == 0) return;
     }
-    if (ui_icon_button(&in->ui, icon, button, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW, false, hint)) {
+    const struct row button = {.name = name,
+                               .hint = follows ? "Stop following; stay at the current position"
+                                               : "Follow a spline (in metres)",
+                               .icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW,
+                               .undo = follows ? "Stop following" : NULL};
+    if (inspector_icon(in, icon, &button)) {
         const wiggly_value now = evaluation_at(in->core->evaluation, track, in->core->view.playback.position);
         if (follows) follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
         if (!follows) ui_popup_open(&in->ui, place_list.name, k, field);
@@ -357,11 +361,9 @@ static void choose_channel(struct inspector *in, int channel)
     in->channel = channel; // two channels may share a spline
 }
 
-/// In its own undo step.
-static bool put_channel(struct inspector *in, const char *label, const struct channel *channel)
+static bool put_channel(struct inspector *in, const struct channel *channel)
 {
-    return core_step(in->core, label, 0) &&
-           edit_channel(in->core->document, place_of(in), channel, &in->core->step.error);
+    return edit_channel(in->core->document, place_of(in), channel, &in->core->step.error);
 }
 
 /// A gain still at its default becomes the new axis's default.
@@ -371,7 +373,7 @@ static void set_axis(struct inspector *in, enum axis axis)
     const bool untouched = changed.gain.form == ANGLES_ONE && changed.gain.value[0] == axis_gain(changed.axis);
     changed.axis = axis;
     if (untouched) changed.gain.value[0] = axis_gain(axis);
-    put_channel(in, "Set axis", &changed);
+    put_channel(in, &changed);
 }
 
 static void choose_axis(struct inspector *in, const struct dropdown *list)
@@ -383,31 +385,26 @@ static void choose_axis(struct inspector *in, const struct dropdown *list)
         items[a] = tail_axes[a].item;
         if (tail_axes[a].axis == chosen_channel(in)->axis) row = a;
     }
-    const int picked = ui_popup_list(&in->ui, list->name, items, COUNT, row);
+    const int picked = inspector_list(in, list, items, COUNT, row);
     if (picked >= 0) set_axis(in, tail_axes[picked].axis);
 }
 
-static const struct dropdown axis_list = {"axis", "What this channel moves", choose_axis};
+static const struct dropdown axis_list = {NAMED("axis", "moves"), .hint = "What this channel moves",
+                                          .undo = "Set axis", .build = choose_axis};
 
 static void choose_feed(struct inspector *in, const struct dropdown *list)
 {
     struct channel changed = *chosen_channel(in);
     changed.spline = inspector_spline_list(in, list, changed.spline);
-    if (changed.spline >= 0 && put_channel(in, "Set channel's spline", &changed)) choose_channel(in, in->channel);
+    if (changed.spline >= 0 && put_channel(in, &changed)) choose_channel(in, in->channel);
 }
 
-static const struct dropdown feed_list = {"feed", "The spline that drives this channel", choose_feed};
-
-/// One end of a chain.
-struct end {
-    struct dropdown list; ///< first member, so that a list pointer leads back here
-    const char *label, *pick;
-    enum bone_use use;
-};
+static const struct dropdown feed_list = {NAMED("feed", "spline"), .hint = "The spline that drives this channel",
+                                          .undo = "Set channel's spline", .build = choose_feed};
 
 static void choose_end(struct inspector *in, const struct dropdown *list)
 {
-    const bool first = ((const struct end *)list)->use == BONE_FIRST;
+    const bool first = list->use == BONE_FIRST;
     const struct chain *chain = &inspector_shown(in)->chain;
     const int model = rig_body(in->core->document, in->rig);
     const struct imported *character = model >= 0 ? bones_character(in->core, model) : NULL;
@@ -417,10 +414,10 @@ static void choose_end(struct inspector *in, const struct dropdown *list)
     if (node >= 0) bones_set_end(in->core, in->rig, first, node);
 }
 
-static const struct end ends[2] = {
-    {{"chain.from", "First bone of the chain", choose_end}, "from", "chain.from.pick", BONE_FIRST},
-    {{"chain.to", "Last bone of the chain", choose_end}, "to", "chain.to.pick", BONE_LAST},
-};
+static const struct dropdown from_list = {NAMED("chain.from", "from"), .hint = "First bone of the chain",
+                                          .pick = "chain.from.pick", .use = BONE_FIRST, .build = choose_end};
+static const struct dropdown to_list = {NAMED("chain.to", "to"), .hint = "Last bone of the chain",
+                                        .pick = "chain.to.pick", .use = BONE_LAST, .build = choose_end};
 
 static bool set_joints(struct inspector *in, int which, double number, struct error *error)
 {
@@ -428,25 +425,17 @@ static bool set_joints(struct inspector *in, int which, double number, struct er
     return edit_joints(in->core->document, in->rig, (int)lround(number), error);
 }
 
-/// Switches for onion skin, motion arc and ghost.
 static void build_overlays(struct inspector *in)
 {
-    struct core *core = in->core;
-    const struct {
-        const char *name, *label, *hint;
-        bool *on;
-    } toggles[] = {
-        {"onion", "onion skin", "Show the pose at the knots around the playhead (O)", &core->view.on[SWITCH_ONION]},
-        {"trail", "motion arc", "Show the path of the tip or liveliest point, one mark per frame (Shift+O)",
-         &core->view.on[SWITCH_TRAIL]},
-        {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)",
-         &core->view.on[SWITCH_GHOST]},
+    static const struct row rows[] = {
+        {NAMED("onion", "onion skin"), .hint = "Show the pose at the knots around the playhead (O)"},
+        {NAMED("trail", "motion arc"),
+         .hint = "Show the path of the tip or liveliest point, one mark per frame (Shift+O)"},
+        {NAMED("ghost", "ghost pose"), .hint = "Show the pose at the knot that is dragged or nudged (F4)"},
     };
-    for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
-        struct rect r = inspector_labelled(in, toggles[i].label);
-        ui_hint(&in->ui, r, toggles[i].hint);
-        ui_toggle(&in->ui, r, toggles[i].name, toggles[i].on);
-    }
+    static const int switches[] = {SWITCH_ONION, SWITCH_TRAIL, SWITCH_GHOST};
+    for (int i = 0; i < 3; i++)
+        inspector_toggle(in, ui_row(&in->ui, UI_ROW), &rows[i], &in->core->view.on[switches[i]]);
 }
 
 static const char *axis_label(enum axis axis)
@@ -458,53 +447,42 @@ static const char *axis_label(enum axis axis)
 
 static void build_channel(struct inspector *in)
 {
-    static const struct icon_button buttons[] = {
-        {"channel.add", "Add a channel that the active spline drives", UI_ICON_ADD},
-        {"channel.delete", "Delete this channel", UI_ICON_DELETE},
+    static const struct row buttons[] = {
+        {ICON("channel.add", UI_ICON_ADD), .hint = "Add a channel that the active spline drives",
+         .undo = "Add channel"},
+        {ICON("channel.delete", UI_ICON_DELETE), .hint = "Delete this channel", .undo = "Delete channel"},
     };
     static const struct ui_choice chain[] = {
         [AXIS_SIDE] = {"side", "Bend"}, [AXIS_UP] = {"up", "Lift"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
         [PART_TOTAL] = {"total", "Curve"}, [PART_DISPLACEMENT] = {"displacement", "Swing"}};
+    static const struct row moves = {NAMED("axis", "moves"), .hint = "What this channel moves", .undo = "Set axis",
+                                     CHOICES(chain)};
+    static const struct row driven = {
+        NAMED("part", "driven by"),
+        .hint = "The whole curve, or its swing about the equilibrium only: for a tail on a moving base",
+        .undo = "Set what bends", CHOICES(parts)};
     struct error *error = &in->core->step.error;
     const int rig = in->rig, spline = in->core->focus.active;
     const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
-    if (pressed == 0 && core_step(in->core, "Add channel", 0) &&
-        edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error))
+    if (pressed == 0 && edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error))
         in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
-    if (pressed == 1 && core_step(in->core, "Delete channel", 0))
-        edit_channel_remove(in->core->document, place_of(in), error);
+    if (pressed == 1) edit_channel_remove(in->core->document, place_of(in), error);
 
     const struct channel *channel = chosen_channel(in);
     if (!channel) return;
-    inspector_spline_field(in, &feed_list, inspector_labelled(in, "spline"), in->channel, channel->spline);
+    inspector_spline_field(in, &feed_list, ui_row(&in->ui, UI_ROW), in->channel, channel->spline);
     int axis = (int)channel->axis, part = (int)channel->of;
     if (inspector_shown(in)->kind == RIG_TAIL) {
-        inspector_dropdown(in, &axis_list, inspector_labelled(in, "moves"), in->channel, axis_label(channel->axis),
-                           0);
-    } else if (inspector_choice(in, "moves", axis_list.hint, "axis", chain, 3, &axis)) {
+        inspector_dropdown(in, &axis_list, ui_row(&in->ui, UI_ROW), in->channel, axis_label(channel->axis), 0);
+    } else if (inspector_choice(in, &moves, &axis)) {
         set_axis(in, (enum axis)axis);
     }
-    if (inspector_choice(in, "driven by",
-                         "The whole curve, or its swing about the equilibrium only: for a tail on a moving base",
-                         "part", parts, 2, &part)) {
+    if (inspector_choice(in, &driven, &part)) {
         struct channel changed = *channel;
         changed.of = (enum channel_part)part;
-        put_channel(in, "Set what bends", &changed);
+        put_channel(in, &changed);
     }
-}
-
-/// A list of bones for one end, and a button to pick one on the stage.
-static void build_end(struct inspector *in, const struct end *end, const char *bone)
-{
-    struct rect field = inspector_labelled(in, end->label),
-                icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
-    field.w -= INSPECTOR_ICON + 4;
-    const int rig = in->rig;
-    inspector_dropdown(in, &end->list, field, rig, bone, 0);
-    const bool picking = in->core->focus.pick.use == end->use && in->core->focus.pick.which == rig;
-    if (ui_icon_button(&in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
-        bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
 }
 
 void inspector_mirror(struct inspector *in, int unused)
@@ -544,12 +522,12 @@ void inspector_tail(struct inspector *in)
 
     const struct rect named = inspector_labelled(in, "name");
     const struct rig *rig = inspector_shown(in);
-    if (!ui_line_is_open(ui, rename_line)) {
+    const struct row rename = {.name = "tail.rename", .undo = is_tail ? "Rename tail" : "Rename chain"};
+    if (!ui_line_is_open(ui, rename.name)) {
         const struct rect field = {named.x, named.y + 2, named.w, named.h - 4};
-        ui_hint(ui, field, "Click to rename");
-        if (ui_button(ui, field, "tail.name", rig_title(rig), false)) ui_line_begin(ui, rename_line, rig_title(rig));
-    } else if (ui_line(ui, named, rename_line) == UI_LINE_DONE &&
-               core_step(in->core, is_tail ? "Rename tail" : "Rename chain", 0)) {
+        const struct row name = {.name = "tail.name", .label = rig_title(rig), .hint = "Click to rename"};
+        if (inspector_button(in, field, &name)) ui_line_begin(ui, rename.name, name.label);
+    } else if (inspector_line(in, named, &rename)) {
         edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->step.error);
     }
     if (is_tail) {
@@ -557,28 +535,32 @@ void inspector_tail(struct inspector *in)
         inspector_numbers(in, &tail_rows[ROW_LENGTH], 1, &of_shown);
         for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
     } else {
-        build_end(in, &ends[0], inspector_shown(in)->chain.from);
-        build_end(in, &ends[1], inspector_shown(in)->chain.to);
+        const struct chain *chain = &inspector_shown(in)->chain;
+        inspector_bone_field(in, &from_list, ui_row(ui, UI_ROW), in->rig, chain->from, in->rig);
+        inspector_bone_field(in, &to_list, ui_row(ui, UI_ROW), in->rig, chain->to, in->rig);
         inspector_numbers(in, &tail_rows[ROW_TURN], 1, &of_shown);
 
         struct rig changed = *inspector_shown(in);
-        const struct rect r = inspector_labelled(in, "mirror");
-        ui_hint(ui, r, "Bend to the other side, as a left ear does to a right one");
-        if (ui_toggle(ui, r, "chain.mirror", &changed.chain.mirror) && core_step(in->core, "Mirror chain", 0))
+        static const struct row mirror = {NAMED("chain.mirror", "mirror"),
+                                          .hint = "Bend to the other side, as a left ear does to a right one",
+                                          .undo = "Mirror chain"};
+        if (inspector_toggle(in, ui_row(ui, UI_ROW), &mirror, &changed.chain.mirror))
             edit_rig_set(in->core->document, in->rig, &changed, &in->core->step.error);
     }
     if (!is_tail && bones_mirrorable(in->core, in->rig) == in->rig) {
         const struct rect row = ui_row(ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
-        ui_hint(ui, button,
-                "Add the mirrored chain, bent by the same splines; you can choose others for its channels");
-        if (ui_button(ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
+        static const struct row twin = {
+            NAMED("chain.twin", "Mirror to other side"),
+            .hint = "Add the mirrored chain, bent by the same splines; you can choose others for its channels"};
+        if (inspector_button(in, button, &twin)) inspector_mirror(in, 0);
     }
 
     // The next drag of a body may be recorded.
     if (document_tail(in->core->document, 0)) {
-        const struct rect r = inspector_labelled(in, "record");
-        ui_hint(ui, r, "Record the next drag of the body as knots (or press R while dragging)");
-        ui_toggle(ui, r, "record", &in->core->view.on[SWITCH_RECORD]);
+        static const struct row record = {
+            NAMED("record", "record"),
+            .hint = "Record the next drag of the body as knots (or press R while dragging)"};
+        inspector_toggle(in, ui_row(ui, UI_ROW), &record, &in->core->view.on[SWITCH_RECORD]);
     }
     build_overlays(in);
 }
@@ -616,10 +598,10 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
         ui_hint(ui, r, "A channel of this character, and the spline that drives it");
         const uint32_t color = spline_list_color(in->core->document, drive->spline);
         if (ui_list_row(ui, r, name, text, color, k == in->core->focus.characters.drive)) choose_drive(in, k);
-        if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this channel")) continue;
-        const int owner = characters_rig(in->core);
-        if (core_step(in->core, "Remove channel", 0))
-            edit_drive_remove(in->core->document, owner, k, &in->core->step.error);
+        const struct row remover = {
+            .name = remove, .icon = UI_ICON_DELETE, .hint = "Remove this channel", .undo = "Remove channel"};
+        if (!inspector_icon(in, button, &remover)) continue;
+        edit_drive_remove(in->core->document, characters_rig(in->core), k, &in->core->step.error);
         return;
     }
 }
@@ -634,10 +616,10 @@ static const void *felt_drive(const struct inspector *in)
 }
 
 static const struct number_row drive_rows[] = {
-    {NUMBER_AT(struct drive, lag), .name = "drive.lag", .label = "lag", .unit = "°",
+    {NUMBER_AT(struct drive, lag), NAMED("drive.lag", "lag"), .unit = "°",
      .hint = "How far it lags behind the spline; 360 is a full swing", .undo = "Set lag", BAR(-180, 180),
      TYPED(-36000, 36000), .step = 1, .decimals = 1},
-    {NUMBER_AT(struct drive, amplitude), .name = "amplitude", .label = "amplitude",
+    {NUMBER_AT(struct drive, amplitude), NAMED("amplitude", "amplitude"),
      .hint = "How far it swings when the spline is 1", .undo = "Set amplitude", BAR(-2, 2),
      TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = DRIVE_DEFAULT_AMPLITUDE, .step = 0.05,
      .decimals = 2},
@@ -687,11 +669,13 @@ static void choose_spline(struct inspector *in, const struct dropdown *list)
 {
     struct drive next = characters_selected(in->core)->drives[in->core->focus.characters.drive];
     next.spline = inspector_spline_list(in, list, next.spline);
-    if (next.spline < 0 || !core_step(in->core, "Set spline", 0)) return;
-    if (set_drive(in, &next, &in->core->step.error)) choose_drive(in, in->core->focus.characters.drive);
+    if (next.spline >= 0 && set_drive(in, &next, &in->core->step.error))
+        choose_drive(in, in->core->focus.characters.drive);
 }
 
-static const struct dropdown spline_list = {"drive.splines", "The spline that drives this channel", choose_spline};
+static const struct dropdown spline_list = {NAMED("drive.splines", "spline"),
+                                            .hint = "The spline that drives this channel", .undo = "Set spline",
+                                            .build = choose_spline};
 
 /// Lists the figure's undriven coordinates; returns how many.
 static int free_coordinates(const struct inspector *in, const struct character_rig *rig,
@@ -713,38 +697,28 @@ static void add_coordinate(struct inspector *in, const struct dropdown *list)
 {
     struct ui_item items[MAX_COORDINATES];
     const int count = free_coordinates(in, characters_selected(in->core), items);
-    const int picked = ui_popup_list(&in->ui, list->name, items, count, -1), owner = characters_rig(in->core);
+    const int picked = inspector_list(in, list, items, count, -1);
     if (picked < 0) return;
     char *name = need_text(items[picked].name);
     const struct drive drive = {.name = name,
                                 .spline = in->core->focus.active >= 0 ? in->core->focus.active : 0,
                                 .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-    if (core_step(in->core, "Add channel", 0))
-        edit_drive(in->core->document, owner, -1, &drive, &in->core->step.error);
+    edit_drive(in->core->document, characters_rig(in->core), -1, &drive, &in->core->step.error);
     free(name);
 }
 
-static const struct dropdown add_list = {"drive.add", "Add a channel that the active spline drives", add_coordinate};
+static const struct dropdown add_list = {.name = "drive.add",
+                                         .hint = "Add a channel that the active spline drives",
+                                         .undo = "Add channel",
+                                         .build = add_coordinate};
 
 static int shown_character(const struct inspector *in) { return characters_rig(in->core); }
 
 static const struct number_row floor_rows[] = {
-    {NUMBER_AT(struct rig, character.floor), .name = "floor.height", .label = "height", .unit = "m",
+    {NUMBER_AT(struct rig, character.floor), NAMED("floor.height", "height"), .unit = "m",
      .hint = "No point of the character goes lower", .undo = "Set floor", BAR(-1, 0),
      TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3},
 };
-
-/// Brush modes of one kind side by side. None is marked if the brush has another kind.
-static void build_modes(struct inspector *in, const char *name, const char *hint, enum brush_mode first,
-                        const struct ui_choice *choices, int count)
-{
-    struct brush *brush = &in->core->focus.brush;
-    const struct rect r = ui_row(&in->ui, UI_ROW);
-    const int chosen = (int)brush->mode - (int)first;
-    int index = chosen >= 0 && chosen < count ? chosen : -1;
-    ui_hint(&in->ui, r, hint);
-    if (ui_segments(&in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
-}
 
 /// The brush's numbers are fractions, shown in percent.
 static double *share_of(const struct inspector *in, int which)
@@ -763,10 +737,10 @@ static bool set_share(struct inspector *in, int which, double percent, struct er
 }
 
 static const struct number_row brush_rows[] = {
-    {BAR(1, 50), .name = "radius", .label = "radius", .unit = "%",
+    {BAR(1, 50), NAMED("radius", "radius"), .unit = "%",
      .hint = "Radius, relative to the character's height (Ctrl+wheel on the stage)", TYPED(1, 50), .fallback = 12,
      .step = 1},
-    {BAR(2, 100), .name = "strength", .label = "strength", .unit = "%",
+    {BAR(2, 100), NAMED("strength", "strength"), .unit = "%",
      .hint = "How fast paint flows (Shift+wheel on the stage)", TYPED(2, 100), .fallback = 40, .step = 1},
 };
 
@@ -777,23 +751,35 @@ static void build_brush(struct inspector *in)
     static const struct ui_choice amplitude[] = {
         {"more", "Swing more"}, {"less", "Swing less"}, {"smooth", "Smooth"}};
     static const struct ui_choice erase[] = {{"all", "Erase"}};
+    static const struct row paint = {
+        NAMED("paint", "paint"), .hint = "Paint phase and amplitude onto the character (Shift+B)", CHOICES(switches)};
+    static const struct {
+        enum brush_mode first; // of a kind, side by side
+        struct row row;
+    } modes[] = {
+        {BRUSH_ADVANCE,
+         {.name = "phase", .hint = "Move earlier, later, or blend with the surroundings", CHOICES(phase)}},
+        {BRUSH_MORE,
+         {.name = "swing", .hint = "Swing more, less, or blend with the surroundings", CHOICES(amplitude)}},
+        {BRUSH_ERASE, {.name = "erase", .hint = "Remove paint and restore the model", CHOICES(erase)}},
+    };
+    static const struct row clean = {NAMED("paint.clean", "Remove all paint"),
+                                     .hint = "Restore the model everywhere"};
     static const struct number_home home = {.get = get_share, .set = set_share};
     struct brush *brush = &in->core->focus.brush;
     int on = brush->on;
-    if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (Shift+B)", "paint", switches, 2,
-                         &on))
-        characters_set_brush(in->core, on);
+    if (inspector_choice(in, &paint, &on)) characters_set_brush(in->core, on);
     const struct character_rig *rig = characters_selected(in->core);
+    for (size_t i = 0; brush->on && i < sizeof modes / sizeof *modes; i++) {
+        const int chosen = (int)brush->mode - (int)modes[i].first;
+        int index = chosen >= 0 && chosen < modes[i].row.count ? chosen : -1; // none of another kind
+        if (inspector_choice(in, &modes[i].row, &index)) brush->mode = (enum brush_mode)((int)modes[i].first + index);
+    }
     if (brush->on) {
-        build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
-        build_modes(in, "swing", "Swing more, less, or blend with the surroundings", BRUSH_MORE, amplitude, 3);
-        build_modes(in, "erase", "Remove paint and restore the model", BRUSH_ERASE, erase, 1);
         inspector_numbers(in, brush_rows, sizeof brush_rows / sizeof brush_rows[0], &home);
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
-    const struct rect r = ui_row(&in->ui, UI_ROW);
-    ui_hint(&in->ui, r, "Restore the model everywhere");
-    if (ui_button(&in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, 0);
+    if (inspector_button(in, ui_row(&in->ui, UI_ROW), &clean)) characters_clean_paint(in->core, 0);
 }
 
 void inspector_character(struct inspector *in)
@@ -801,6 +787,11 @@ void inspector_character(struct inspector *in)
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
     static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
     static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "On"}};
+    static const struct row phases = {NAMED("phases", "phases"),
+                                      .hint = "Colour each point by its phase along x, y or z", CHOICES(maps)};
+    static const struct row twin = {NAMED("twin", "stiff twin"),
+                                    .hint = "Show a second character without phases: all its points move in step",
+                                    CHOICES(pairs)};
     static const struct number_home home = {.rig = shown_character};
     struct character_view *view = &in->core->focus.characters;
     inspector_find_rig(in); // a row may have removed one
@@ -812,8 +803,7 @@ void inspector_character(struct inspector *in)
     ui_space(&in->ui, 4);
     const int owner = characters_rig(in->core);
     if (view->drive < rig->drive_count) {
-        inspector_spline_field(in, &spline_list, inspector_labelled(in, "spline"), 0,
-                               rig->drives[view->drive].spline);
+        inspector_spline_field(in, &spline_list, ui_row(&in->ui, UI_ROW), 0, rig->drives[view->drive].spline);
         const struct coordinate *c = characters_coordinate(in->core); // as the analysis found it
         char text[200];
         if (!c) {
@@ -828,12 +818,13 @@ void inspector_character(struct inspector *in)
     }
 
     int floor = rig->has_floor;
-    if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", switches, 2, &floor)) {
+    const struct row ground = {NAMED("floor", "floor"), .hint = "Keep the whole character above a height",
+                               .undo = floor ? "Remove floor" : "Set floor", CHOICES(switches)};
+    if (inspector_choice(in, &ground, &floor)) {
         struct rig changed = *in->core->document->rigs[owner];
         changed.character.has_floor = floor;
         if (floor) changed.character.floor = rig->position[1];
-        if (core_step(in->core, floor ? "Set floor" : "Remove floor", 0))
-            edit_rig_set(in->core->document, owner, &changed, &in->core->step.error);
+        edit_rig_set(in->core->document, owner, &changed, &in->core->step.error);
     } else if (rig->has_floor) {
         inspector_numbers(in, floor_rows, 1, &home);
         const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);
@@ -847,12 +838,11 @@ void inspector_character(struct inspector *in)
 
     bool *on = in->core->view.on;
     int map = on[SWITCH_PHASE_MAP] ? 1 + view->axis : 0, pair = on[SWITCH_TWIN];
-    if (inspector_choice(in, "phases", "Colour each point by its phase along x, y or z", "phases", maps, 4, &map)) {
+    if (inspector_choice(in, &phases, &map)) {
         on[SWITCH_PHASE_MAP] = map > 0;
         if (map > 0) view->axis = map - 1;
     }
-    if (inspector_choice(in, "stiff twin", "Show a second character without phases: all its points move in step",
-                         "twin", pairs, 2, &pair)) {
+    if (inspector_choice(in, &twin, &pair)) {
         on[SWITCH_TWIN] = pair;
         in->core->view.refit_stage = true;
     }
@@ -880,37 +870,38 @@ static void choose_clip(struct inspector *in, const struct dropdown *list)
     int count = 1;
     for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
         items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
-    const int picked = ui_popup_list(&in->ui, list->name, items, count, gltf_find_clip(gltf, clip) + 1);
+    const int picked = inspector_list(in, list, items, count, gltf_find_clip(gltf, clip) + 1);
     if (picked >= 0)
         bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL, REPEAT_BY_CLIP);
 }
 
-static const struct dropdown clip_list = {"model.clips", "The clip of the file that it repeats", choose_clip};
+static const struct dropdown clip_list = {NAMED("model.clips", "clip"),
+                                          .hint = "The clip of the file that it repeats", .build = choose_clip};
 
 static const struct number_row place[] = {
-    {NUMBER_AT(struct rig, model.position[0]), .name = "model.x", .label = "x", .unit = "m",
-     .hint = "Where it stands along x", .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    {NUMBER_AT(struct rig, model.position[1]), .name = "model.y", .label = "y", .unit = "m",
+    {NUMBER_AT(struct rig, model.position[0]), NAMED("model.x", "x"), .unit = "m", .hint = "Where it stands along x",
+     .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
+    {NUMBER_AT(struct rig, model.position[1]), NAMED("model.y", "y"), .unit = "m",
      .hint = "Height of the ground under it", .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01,
      .decimals = 3},
-    {NUMBER_AT(struct rig, model.position[2]), .name = "model.z", .label = "z", .unit = "m",
-     .hint = "Where it stands along z", .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    {NUMBER_AT(struct rig, model.scale), .name = "model.scale", .label = "scale",
-     .hint = "Size, relative to the file's", .undo = "Place character", TYPED(1e-9, 1e9), .fallback = 1, .step = 0.01,
-     .decimals = 3},
-    {NUMBER_AT(struct rig, model.turn), .name = "model.turn", .label = "turn", .unit = "°",
-     .hint = "About the vertical", .undo = "Place character", BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
+    {NUMBER_AT(struct rig, model.position[2]), NAMED("model.z", "z"), .unit = "m", .hint = "Where it stands along z",
+     .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
+    {NUMBER_AT(struct rig, model.scale), NAMED("model.scale", "scale"), .hint = "Size, relative to the file's",
+     .undo = "Place character", TYPED(1e-9, 1e9), .fallback = 1, .step = 0.01, .decimals = 3},
+    {NUMBER_AT(struct rig, model.turn), NAMED("model.turn", "turn"), .unit = "°", .hint = "About the vertical",
+     .undo = "Place character", BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
 };
 
 void inspector_model(struct inspector *in)
 {
-    static const struct {
-        const char *name, *label, *hint;
-        bool follow;
-    } buttons[] = {
-        {"bone.chain", "Make chain", "Make a chain from this bone to its tip, bent by a new spline (J)", false},
-        {"bone.follow", "With follow-through", "Make a chain that follows through on the clip (Shift+J)", true},
+    static const struct row buttons[] = {
+        {NAMED("bone.chain", "Make chain"),
+         .hint = "Make a chain from this bone to its tip, bent by a new spline (J)"},
+        {NAMED("bone.follow", "With follow-through"),
+         .hint = "Make a chain that follows through on the clip (Shift+J)"},
     };
+    static const struct row repeats = {NAMED("model.loops", "loops"),
+                                       .hint = "The clip begins again after its end; else it plays once"};
     static const struct number_home home = {.rig = shown_model};
     struct ui *ui = &in->ui;
     const int model = shown_model(in);
@@ -929,14 +920,11 @@ void inspector_model(struct inspector *in)
     }
 
     if (shown && shown->gltf.clip_count > 0)
-        inspector_dropdown(in, &clip_list, inspector_labelled(in, "clip"), in->model, rig->clip ? rig->clip : "None",
-                           0);
+        inspector_dropdown(in, &clip_list, ui_row(ui, UI_ROW), in->model, rig->clip ? rig->clip : "None", 0);
     const int clip = shown ? gltf_find_clip(&shown->gltf, rig->clip) : -1;
     if (clip >= 0) {
         bool loops = clip_play(rig, &shown->gltf.clips[clip]).loops;
-        r = inspector_labelled(in, "loops");
-        ui_hint(ui, r, "The clip begins again after its end; else it plays once");
-        if (ui_toggle(ui, r, "model.loops", &loops))
+        if (inspector_toggle(in, ui_row(ui, UI_ROW), &repeats, &loops))
             bones_choose_clip(in->core, model, rig->clip, loops ? REPEAT_LOOP : REPEAT_ONCE);
     }
     inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
@@ -952,10 +940,8 @@ void inspector_model(struct inspector *in)
     ui_label(ui, r, bones_character(in->core, owner)->gltf.nodes[node].name, theme()->text);
     const struct rect row = ui_row(ui, UI_ROW);
     const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
-    for (size_t i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; i++) {
         const struct rect button = {i > 0 ? row.x + (widths[0] + 6) : row.x, row.y + 2, widths[i], row.h - 4};
-        ui_hint(ui, button, buttons[i].hint);
-        if (ui_button(ui, button, buttons[i].name, buttons[i].label, false))
-            bones_make_chain(in->core, buttons[i].follow);
+        if (inspector_button(in, button, &buttons[i])) bones_make_chain(in->core, i > 0);
     }
 }

@@ -14,63 +14,55 @@
 
 enum { MAX_ROWS = 8, SWATCH = 22, KIND = 56 }; ///< splines listed at once; pixels
 
-static const char rename_line[] = "rename";
+static const struct row rename_row = {.name = "rename", .undo = "Rename spline"};
 
 enum { COLOR = 28, WIDTH = THEME_SPLINE_COLORS * COLOR + 20 };
 
-static const char hex_line[] = "color.hex";
-
-static void set_color(struct inspector *in, int spline, int color)
-{
-    if (core_step(in->core, "Set colour", 0))
-        edit_spline_color(in->core->document, spline, color, &in->core->step.error);
-}
-
+/// The colours of the theme, a typed one, and none.
 static void build_palette(struct inspector *in, const struct dropdown *list)
 {
-    (void)list;
+    enum { UNCHANGED = -2, DEFAULT = -1 };
+    static const struct row hex = {.name = "color.hex"};
     struct ui *ui = &in->ui;
     const int spline = document_find_spline_id(in->core->document, (unsigned)ui->popup.which);
     if (spline < 0) return;
     ui_popup_begin(ui, WIDTH, COLOR + UI_ROW + 8);
     const struct rect r = {ui->scroll_area.x + 6, ui->y + 2, THEME_SPLINE_COLORS * COLOR, COLOR};
     const uint32_t present = spline_list_color(in->core->document, spline);
-    bool picked = false;
+    int color = UNCHANGED;
     for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
         char name[24];
         snprintf(name, sizeof name, "color.%d", i);
         const struct rect field = {r.x + (float)(i * COLOR), r.y, COLOR, COLOR};
-        if (!ui_color(ui, field, name, theme()->spline[i], theme()->spline[i] == present)) continue;
-        set_color(in, spline, (int)theme_spline_rgb(i));
-        picked = true;
+        if (ui_color(ui, field, name, theme()->spline[i], theme()->spline[i] == present))
+            color = (int)theme_spline_rgb(i);
     }
+    bool picked = color != UNCHANGED;
 
     // Typed "#RRGGBB"; anything else shows an error and changes nothing.
     const struct rect typed = {r.x, r.y + COLOR + 2, 86, UI_ROW}, none = {r.x + 92, typed.y, r.w - 92, UI_ROW};
     const int stored = in->core->document->splines[spline]->color;
     char text[COLOR_TEXT_SIZE];
-    int color;
     color_print(stored < 0 ? (int)theme_spline_rgb(spline % THEME_SPLINE_COLORS) : stored, text);
-    if (!ui_line_is_open(ui, hex_line)) {
-        if (ui_button(ui, typed, "color.type", text, false)) ui_line_begin(ui, hex_line, text);
-    } else if (ui_line(ui, typed, hex_line) == UI_LINE_DONE) {
-        if (color_parse(ui->text.bytes, &color)) {
-            set_color(in, spline, color);
-        } else {
-            snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.*s”",
-                     name_fit(ui->text.bytes, 40), ui->text.bytes);
-        }
+    if (!ui_line_is_open(ui, hex.name)) {
+        if (ui_button(ui, typed, "color.type", text, false)) ui_line_begin(ui, hex.name, text);
+    } else if (inspector_line(in, typed, &hex) && !color_parse(ui->text.bytes, &color)) {
+        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.*s”",
+                 name_fit(ui->text.bytes, 40), ui->text.bytes);
     }
     if (ui_button(ui, none, "color.none", "Default", false)) {
-        set_color(in, spline, -1);
+        color = DEFAULT;
         picked = true;
     }
+    if (inspector_picks(in, list, color != UNCHANGED))
+        edit_spline_color(in->core->document, spline, color, &in->core->step.error);
     ui_space(ui, COLOR + UI_ROW + 8);
     ui_popup_end(ui);
     if (picked) ui_popup_close(ui);
 }
 
-static const struct dropdown palette = {"palette", "Colour of this spline", build_palette};
+static const struct dropdown palette = {
+    .name = "palette", .hint = "Colour of this spline", .undo = "Set colour", .build = build_palette};
 
 void inspector_rename(struct inspector *in, int unused)
 {
@@ -79,7 +71,7 @@ void inspector_rename(struct inspector *in, int unused)
     if (!spline) return;
     inspector_unfold(in, "section.splines");
     in->sections.offset = 0; // the list is near the top
-    ui_line_begin(&in->ui, rename_line, spline->name);
+    ui_line_begin(&in->ui, rename_row.name, spline->name);
 }
 
 /// true if the row was dropped after a drag.
@@ -93,8 +85,8 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     snprintf(name, sizeof name, "spline.%s", spline->name);
     const float right = core->view.on[SWITCH_MORE] ? 2 * INSPECTOR_ICON : KIND;
     struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - right, r.h};
-    if (active && ui_line_is_open(ui, rename_line)) {
-        if (ui_line(ui, label, rename_line) == UI_LINE_DONE && core_step(core, "Rename spline", 0))
+    if (active && ui_line_is_open(ui, rename_row.name)) {
+        if (inspector_line(in, label, &rename_row))
             edit_spline_name(core->document, s, ui->text.bytes, &core->step.error);
     } else {
         ui_hint(ui, label, "Click to edit (PgUp, PgDn), M for another kind, F2 to rename, drag to reorder");
@@ -132,12 +124,12 @@ static bool build_row(struct inspector *in, int s, struct rect r)
 
 void inspector_splines(struct inspector *in)
 {
-    static const struct icon_button buttons[] = {
-        {"splines.add", "Add a spline with a knot at the playhead", UI_ICON_ADD},
-        {"splines.copy", "Duplicate this spline", UI_ICON_COPY},
-        {"splines.delete", "Delete this spline", UI_ICON_DELETE},
-        {"splines.up", "Move this spline up", UI_ICON_UP},
-        {"splines.down", "Move this spline down", UI_ICON_DOWN},
+    static const struct row buttons[] = {
+        {ICON("splines.add", UI_ICON_ADD), .hint = "Add a spline with a knot at the playhead"},
+        {ICON("splines.copy", UI_ICON_COPY), .hint = "Duplicate this spline"},
+        {ICON("splines.delete", UI_ICON_DELETE), .hint = "Delete this spline"},
+        {ICON("splines.up", UI_ICON_UP), .hint = "Move this spline up"},
+        {ICON("splines.down", UI_ICON_DOWN), .hint = "Move this spline down"},
     };
     struct ui *ui = &in->ui;
     const int count = in->core->document->spline_count,
@@ -172,21 +164,40 @@ void inspector_splines(struct inspector *in)
 }
 
 static const struct preset {
-    const char *name, *label, *hint;
+    struct row button;
     double frequency, damping;
     double wind_up; ///< periods
     double lag;     ///< degrees between the first and last joint
 } presets[] = {
-    {"preset.cat", "Cat", "A cat's tail: slow, soon at rest, the tip far behind", .frequency = 0.8, .damping = 0.22,
-     .wind_up = 0.5, .lag = 170},
-    {"preset.whip", "Whip", "A whip: quick, a wave that runs to the tip", .frequency = 1.8, .damping = 0.12,
-     .wind_up = 0.35, .lag = 260},
-    {"preset.heavy", "Heavy", "Something heavy: slow, long in coming, soon at rest", .frequency = 0.5,
-     .damping = 0.35, .wind_up = 0.7, .lag = 90},
-    {"preset.jelly", "Jelly", "Jelly: quick, wobbles for long", .frequency = 3, .damping = 0.06, .wind_up = 0.5,
+    {.button = {NAMED("preset.cat", "Cat"), .hint = "A cat's tail: slow, soon at rest, the tip far behind",
+                .undo = "Choose a feel"},
+     .frequency = 0.8,
+     .damping = 0.22,
+     .wind_up = 0.5,
+     .lag = 170},
+    {.button = {NAMED("preset.whip", "Whip"), .hint = "A whip: quick, a wave that runs to the tip",
+                .undo = "Choose a feel"},
+     .frequency = 1.8,
+     .damping = 0.12,
+     .wind_up = 0.35,
+     .lag = 260},
+    {.button = {NAMED("preset.heavy", "Heavy"), .hint = "Something heavy: slow, long in coming, soon at rest",
+                .undo = "Choose a feel"},
+     .frequency = 0.5,
+     .damping = 0.35,
+     .wind_up = 0.7,
+     .lag = 90},
+    {.button = {NAMED("preset.jelly", "Jelly"), .hint = "Jelly: quick, wobbles for long", .undo = "Choose a feel"},
+     .frequency = 3,
+     .damping = 0.06,
+     .wind_up = 0.5,
      .lag = 60},
-    {"preset.antenna", "Antenna", "An antenna: very quick, stiff, rings for long", .frequency = 5, .damping = 0.03,
-     .wind_up = 0.5, .lag = 20},
+    {.button = {NAMED("preset.antenna", "Antenna"), .hint = "An antenna: very quick, stiff, rings for long",
+                .undo = "Choose a feel"},
+     .frequency = 5,
+     .damping = 0.03,
+     .wind_up = 0.5,
+     .lag = 20},
 };
 
 enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARGINS = 8, TEXT = 32 /* two lines */ };
@@ -214,7 +225,6 @@ static bool set_felt(struct inspector *in, enum parameter parameter, double valu
 static void apply_preset(struct inspector *in, const struct preset *preset)
 {
     const struct spline *spline = core_active_spline(in->core);
-    if (!core_step(in->core, "Choose a feel", 0)) return;
     bool good = (spline_mode(spline) != WIGGLY_CUBIC ||
                  core_set_parameter(in->core, in->core->focus.active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
                 set_felt(in, PARAMETER_FREQUENCY, preset->frequency, false) &&
@@ -238,13 +248,13 @@ static void apply_preset(struct inspector *in, const struct preset *preset)
 void inspector_preset(struct inspector *in, int preset)
 {
     in->alone = false;
-    apply_preset(in, &presets[preset]);
+    if (core_step(in->core, presets[preset].button.undo, 0)) apply_preset(in, &presets[preset]);
 }
 
 static float presets_width(int first, int end)
 {
     float width = (float)(end - first - 1) * PRESET_GAP;
-    for (int i = first; i < end; i++) width += ui_text_width(presets[i].label);
+    for (int i = first; i < end; i++) width += ui_text_width(presets[i].button.label);
     return width;
 }
 
@@ -254,10 +264,9 @@ static void build_preset_row(struct inspector *in, struct rect row, int first, i
     const float spare = (row.w - presets_width(first, end)) / (float)(end - first);
     float x = row.x;
     for (int i = first; i < end; i++) {
-        const float right = x + ui_text_width(presets[i].label) + spare;
+        const float right = x + ui_text_width(presets[i].button.label) + spare;
         const struct rect r = {roundf(x), row.y + 1, roundf(right) - roundf(x), row.h - 2};
-        ui_hint(&in->ui, r, presets[i].hint);
-        if (ui_button(&in->ui, r, presets[i].name, presets[i].label, false)) apply_preset(in, &presets[i]);
+        if (inspector_button(in, r, &presets[i].button)) apply_preset(in, &presets[i]);
         x = right + PRESET_GAP;
     }
 }
@@ -349,8 +358,7 @@ static void build_settle(struct inspector *in)
         inspector_idle(in, "settles in", "–");
         return;
     }
-    const struct number_row number = {.name = "settle",
-                                      .label = "settles in",
+    const struct number_row number = {NAMED("settle", "settles in"),
                                       .unit = "s",
                                       .hint =
                                           "Time until 5 % of a swing is left; changes the damping, not the frequency",
@@ -527,8 +535,10 @@ void inspector_feel(struct inspector *in)
     ui->y = fmaxf(ui->y, top + TEXT);
     if (!in->core->view.on[SWITCH_MORE]) return;
     const struct rect line = ui_row(ui, UI_ROW), r = {line.x, line.y + 1, line.w, line.h - 2};
-    ui_hint(ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
-    if (ui_button(ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
+    static const struct row find = {
+        NAMED("frequency.find", "Find the frequency"),
+        .hint = "Frequency and damping that explain the knots best (Shift+F); again: the runner-up"};
+    if (inspector_button(in, r, &find)) core_find_frequency(in->core, 0);
 }
 
 static double get_parameter(const struct inspector *in, int parameter)
@@ -546,13 +556,6 @@ static double was_parameter(const struct inspector *in, int parameter)
 static bool put_parameter(struct inspector *in, int parameter, double number, struct error *error)
 {
     return core_set_felt(in->core, inspector_limb(in), (enum parameter)parameter, number, false, error);
-}
-
-/// In its own undo step.
-static void set_parameter(struct inspector *in, enum parameter parameter, double number)
-{
-    if (core_step(in->core, parameter_rows[parameter].undo, 0))
-        put_parameter(in, (int)parameter, number, &in->core->step.error);
 }
 
 static void build_slider(struct inspector *in, enum parameter parameter, struct rect r)
@@ -581,6 +584,18 @@ static const struct param *followed(const struct inspector *in)
     return &core_active_spline(in->core)->parameter[PARAMETER_EQUILIBRIUM];
 }
 
+void inspector_bone_field(struct inspector *in, const struct dropdown *list, struct rect r, int which,
+                          const char *text, int of)
+{
+    const struct bone_pick *pick = &in->core->focus.pick;
+    const struct row button = {ICON(list->pick, UI_ICON_PICK), .hint = "Pick it on the stage",
+                               .lit = pick->use == list->use && pick->which == of};
+    const struct rect icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
+    r.w -= INSPECTOR_ICON + 4;
+    inspector_dropdown(in, list, r, which, text, 0);
+    if (inspector_icon(in, icon, &button)) bones_pick(in->core, button.lit ? BONE_SELECTED : list->use, of);
+}
+
 int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen)
 {
     const struct imported *character = bones_character(in->core, model);
@@ -592,7 +607,7 @@ int inspector_bone_list(struct inspector *in, const struct dropdown *list, int m
         if (nodes[b] == node) row = b;
         items[b] = (struct ui_item){name, name, 0};
     }
-    const int picked = ui_popup_list(&in->ui, list->name, items, count, row);
+    const int picked = inspector_list(in, list, items, count, row);
     return picked < 0 ? -1 : nodes[picked];
 }
 
@@ -605,13 +620,11 @@ static void choose_joint(struct inspector *in, const struct dropdown *list)
     if (node >= 0) bones_follow(in->core, in->core->focus.active, model, node);
 }
 
-static const struct dropdown joint_list = {"joint", "The joint it follows through the clip", choose_joint};
-
-static void set_track(struct inspector *in, enum parameter parameter, struct param param)
-{
-    if (core_step(in->core, param_follows(&param) ? "Follow spline" : "Stop following", 0))
-        edit_parameter(in->core->document, in->core->focus.active, parameter, &param, &in->core->step.error);
-}
+static const struct dropdown joint_list = {.name = "joint",
+                                           .hint = "The joint it follows through the clip",
+                                           .pick = "joint.pick",
+                                           .use = BONE_FOLLOWED,
+                                           .build = choose_joint};
 
 /// Marks splines the active one cannot follow without a cycle; true if any is left.
 static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX_SPLINES])
@@ -647,30 +660,17 @@ static void choose_track(struct inspector *in, const struct dropdown *list)
         items[count + more] = (struct ui_item){texts[more], texts[more], 0};
         models[more++] = r;
     }
-    const int picked = ui_popup_list(ui, list->name, items, count + more, row);
+    const int picked = inspector_list(in, list, items, count + more, row), active = in->core->focus.active;
     if (picked >= count) {
-        bones_follow(in->core, in->core->focus.active, models[picked - count], -1);
-    } else if (picked >= 0) {
-        set_track(in, parameter, param_track(splines[picked]));
+        bones_follow(in->core, active, models[picked - count], -1);
+    } else if (picked >= 0 && core_step(in->core, "Follow spline", 0)) {
+        const struct param track = param_track(splines[picked]);
+        edit_parameter(in->core->document, active, parameter, &track, &in->core->step.error);
     }
 }
 
-static const struct dropdown track_list = {"follow", "The spline it follows, sample by sample", choose_track};
-
-/// The field for the followed joint, in place of the spline's.
-static void build_joint_field(struct inspector *in, const struct joint_motion *motion, struct rect field)
-{
-    struct rect icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
-    const int active = in->core->focus.active;
-    const int model = document_find_model(in->core->document, motion->model, motion->by_file);
-    char title[BONES_TITLE];
-    const char *text = model < 0 ? motion->joint : bones_title(in->core->document, model, motion->joint, title);
-    field.w -= INSPECTOR_ICON + 4;
-    inspector_dropdown(in, &joint_list, field, 0, text, 0);
-    const bool picking = in->core->focus.pick.use == BONE_FOLLOWED && in->core->focus.pick.which == active;
-    if (ui_icon_button(&in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
-        bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
-}
+static const struct dropdown track_list = {
+    .name = "follow", .hint = "The spline it follows, sample by sample", .build = choose_track};
 
 /// The button at the right of a row: follows a spline from a list, or stops following.
 static void build_track_button(struct inspector *in, enum parameter parameter, struct rect r, struct rect row)
@@ -684,8 +684,15 @@ static void build_track_button(struct inspector *in, enum parameter parameter, s
                                 : "Follow another spline";
     char name[64];
     snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
-    const bool pressed = ui_icon_button(&in->ui, r, name, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW, false, hint);
-    if (pressed && follows) set_track(in, parameter, param_number(spline_list_present(in->core, active, parameter)));
+    const struct row button = {.name = name,
+                               .hint = hint,
+                               .icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW,
+                               .undo = follows ? "Stop following" : NULL};
+    const bool pressed = inspector_icon(in, r, &button);
+    if (pressed && follows) {
+        const struct param number = param_number(spline_list_present(in->core, active, parameter));
+        edit_parameter(in->core->document, active, parameter, &number, &in->core->step.error);
+    }
     bool left_out[INSPECTOR_MAX_SPLINES];
     if (pressed && !follows && (find_leaders(in, left_out) || joints)) {
         const struct rect field = {row.x + UI_LABEL + UI_GAP, row.y, row.w - UI_LABEL - UI_GAP, row.h};
@@ -714,7 +721,7 @@ static bool set_gain(struct inspector *in, int which, double gain, struct error 
 }
 
 static const struct number_row gain_rows[] = {
-    {NUMBER_AT(struct joint_motion, gain), .name = "joint.gain", .label = "strength",
+    {NUMBER_AT(struct joint_motion, gain), NAMED("joint.gain", "strength"),
      .hint = "How much of the joint's motion it follows", .undo = "Set joint's gain", TYPED(-1e6, 1e6), .fallback = 1,
      .step = 0.01, .decimals = 2},
 };
@@ -728,10 +735,13 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
         struct ui_choice choices[PARAMETER_MAX_WORDS];
         int chosen = (int)spline->parameter[parameter].value, count = 0;
         for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
-        const bool alone = parameter == PARAMETER_MODE;
-        const struct rect field = alone ? ui_row(&in->ui, UI_ROW) : inspector_labelled(in, row->name);
-        ui_hint(&in->ui, field, row->hint);
-        if (ui_segments(&in->ui, field, row->name, choices, count, &chosen)) set_parameter(in, parameter, chosen);
+        const struct row choice = {.name = row->name,
+                                   .label = parameter == PARAMETER_MODE ? NULL : row->name,
+                                   .hint = row->hint,
+                                   .undo = row->undo,
+                                   .choices = choices,
+                                   .count = count};
+        if (inspector_choice(in, &choice, &chosen)) put_parameter(in, (int)parameter, chosen, &in->core->step.error);
         return;
     }
 
@@ -744,7 +754,11 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
     if (!follows) {
         build_slider(in, parameter, r);
     } else if (param->motion) {
-        build_joint_field(in, param->motion, field);
+        const struct joint_motion *motion = param->motion;
+        const int model = document_find_model(in->core->document, motion->model, motion->by_file);
+        char title[BONES_TITLE];
+        const char *text = model < 0 ? motion->joint : bones_title(in->core->document, model, motion->joint, title);
+        inspector_bone_field(in, &joint_list, field, 0, text, in->core->focus.active);
     } else {
         inspector_spline_field(in, &track_list, field, (int)parameter, param->track);
     }
@@ -754,16 +768,18 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
 
     static const struct ui_choice motions[] = {
         [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
+    static const struct row part = {NAMED("joint.of", "joint's"),
+                                    .hint = "Its turn in degrees, or its movement across or up in metres",
+                                    .undo = "Set joint's motion", CHOICES(motions)};
     static const struct number_home home = {.of = followed_gain, .set = set_gain};
     if (followed(in)->motion) {
         struct param changed = *followed(in);
         struct joint_motion motion = *changed.motion;
         int of = (int)motion.of;
         changed.motion = &motion;
-        if (inspector_choice(in, "joint's", "Its turn in degrees, or its movement across or up in metres", "joint.of",
-                             motions, MOTION_KINDS, &of)) {
+        if (inspector_choice(in, &part, &of)) {
             motion.of = (enum motion_of)of;
-            if (core_step(in->core, "Set joint's motion", 0)) follow_joint(in, &changed, &in->core->step.error);
+            follow_joint(in, &changed, &in->core->step.error);
         }
     }
     if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
@@ -774,12 +790,14 @@ void inspector_spline(struct inspector *in)
     static const enum parameter shown[] = {PARAMETER_MODE, PARAMETER_EQUILIBRIUM, PARAMETER_START};
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
+    static const struct row all = {NAMED("settles.all", "pose to pose"),
+                                   .hint = "Let the motion settle at every knot: it overshoots each, and stays",
+                                   CHOICES(choices)};
     const struct spline *spline = core_active_spline(in->core);
     int settles = spline_settles(spline);
-    const char *label = "pose to pose", *hint = "Let the motion settle at every knot: it overshoots each, and stays";
     if (spline_mode(spline) == WIGGLY_CUBIC) {
-        inspector_idle(in, label, "–");
-    } else if (inspector_choice(in, label, hint, "settles.all", choices, 2, &settles)) {
+        inspector_idle(in, all.label, "–");
+    } else if (inspector_choice(in, &all, &settles)) {
         core_toggle_pose_to_pose(in->core, 0);
     }
 }
@@ -805,9 +823,12 @@ static void build_limit(struct inspector *in, const struct spline *spline, enum 
     } else {
         ui_label(&in->ui, name, row->name, theme()->text_dim);
     }
+    const struct row limit = {
+        .name = parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", .hint = row->hint, .undo = row->undo};
     ui_hint(&in->ui, r, row->hint);
-    if (ui_toggle(&in->ui, at, parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", &on))
-        set_parameter(in, parameter, on ? core_fresh_limit(spline, parameter) : row->standard);
+    if (inspector_toggle(in, at, &limit, &on))
+        put_parameter(in, (int)parameter, on ? core_fresh_limit(spline, parameter) : row->standard,
+                      &in->core->step.error);
 }
 
 void inspector_limits(struct inspector *in)
@@ -820,14 +841,17 @@ void inspector_limits(struct inspector *in)
 /// First amount of a roll.
 static const double FRESH_VARIATION = 0.3;
 
-/// Another seed, and an amount if there was none, in one step.
-static void roll(struct inspector *in, const struct spline *spline)
+static const struct row roll_row = {NAMED("variation.roll", "Roll"), .hint = "Another motion through the same knots",
+                                    .undo = "Roll variation"};
+
+/// Another seed, and an amount if there was none.
+static void roll(struct inspector *in)
 {
+    const struct spline *spline = core_active_spline(in->core);
     const int most = (int)parameter_rows[PARAMETER_SEED].maximum + 1;
     const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
     const bool is_new = spline->parameter[PARAMETER_VARIATION].value == 0;
     const int active = in->core->focus.active;
-    if (!core_step(in->core, "Roll variation", 0)) return;
     core_set_parameter(in->core, active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
     if (is_new) core_set_parameter(in->core, active, PARAMETER_VARIATION, FRESH_VARIATION);
     core_edited(in->core, in->core->focus.active);
@@ -836,7 +860,7 @@ static void roll(struct inspector *in, const struct spline *spline)
 void inspector_roll(struct inspector *in, int unused)
 {
     (void)unused;
-    roll(in, core_active_spline(in->core));
+    if (core_step(in->core, roll_row.undo, 0)) roll(in);
 }
 
 /// Why a variation is not visible, or NULL.
@@ -859,7 +883,6 @@ void inspector_variation(struct inspector *in)
     struct rect r = ui_row(&in->ui, UI_ROW), button = {r.x + r.w - 64, r.y + 2, 64, r.h - 4};
     r.w -= 70;
     build_slider(in, PARAMETER_SEED, r);
-    ui_hint(&in->ui, button, "Another motion through the same knots");
-    if (ui_button(&in->ui, button, "variation.roll", "Roll", false)) roll(in, spline);
+    if (inspector_button(in, button, &roll_row)) roll(in);
     if (reason) ui_paragraph(&in->ui, reason, theme()->text_dim);
 }

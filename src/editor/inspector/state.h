@@ -102,9 +102,42 @@ void inspector_parameter(struct inspector *in, enum parameter parameter);
 const struct channel *inspector_felt_channel(const struct inspector *in);
 bool inspector_felt_drive(struct inspector *in);
 
+/// A row that is no number: a button, a choice, a switch, a line of text.
+struct row {
+    const char *name, *label, *hint;
+    const char *undo;  ///< label of the undo step that using it opens; NULL: it edits nothing, or core opens the step
+    enum ui_icon icon; ///< of an icon button
+    bool lit;          ///< of a button: shown as on
+    const struct ui_choice *choices; ///< of a choice
+    int count;
+};
+
+/// How rows begin: with a name and the text that shows it, with a name and an icon, with choices.
+#define NAMED(id, text) .name = (id), .label = (text)
+#define ICON(id, shape) .name = (id), .icon = (shape)
+#define CHOICES(of) .choices = (of), .count = sizeof(of) / sizeof *(of)
+
+// They return true if the row was used and its undo step is open, so that you should edit now. The end of the event closes the step.
+
+bool inspector_button(struct inspector *in, struct rect r, const struct row *row);
+bool inspector_icon(struct inspector *in, struct rect r, const struct row *row);
+/// A labelled row of segments; true if `*chosen` changed.
+bool inspector_choice(struct inspector *in, const struct row *row, int *chosen);
+bool inspector_toggle(struct inspector *in, struct rect r, const struct row *row, bool *on);
+/// The line that ui_line_begin() opened; true once it is typed.
+bool inspector_line(struct inspector *in, struct rect r, const struct row *row);
+
+enum { INSPECTOR_ICON = 24 };
+/// Icon buttons from left to right, or buttons of one width; the pressed one, or -1.
+int inspector_icons(struct inspector *in, struct rect r, const struct row *rows, int count);
+int inspector_buttons(struct inspector *in, const struct row *rows, int count);
+
 /// A list over the panel.
 struct dropdown {
-    const char *name, *hint; ///< hint of the field that opens it
+    const char *name, *label, *hint; ///< of the field that opens it; its label may be NULL
+    const char *undo;                ///< as in struct row
+    const char *pick; ///< of bones: the button beside the field, which picks one on the stage for `use`
+    enum bone_use use;
     /// Lays out the list after the rest of the panel, and carries out the choice.
     void (*build)(struct inspector *in, const struct dropdown *list);
 };
@@ -114,9 +147,17 @@ void inspector_offer(struct inspector *in, const struct dropdown *list);
 void inspector_dropdown(struct inspector *in, const struct dropdown *list, struct rect r, int which, const char *text,
                         uint32_t color);
 void inspector_spline_field(struct inspector *in, const struct dropdown *list, struct rect r, int which, int spline);
+/// The open list of a dropdown, one row chosen (-1: none); the row to edit by now, or -1.
+int inspector_list(struct inspector *in, const struct dropdown *list, const struct ui_item *items, int count,
+                   int chosen);
+/// The same for what another widget in the open list picked.
+bool inspector_picks(struct inspector *in, const struct dropdown *list, bool picked);
 /// The menu of A.
 extern const struct dropdown inspector_add_list;
 
+/// The field of a list of bones, and the button that picks one on the stage for `of`, a spline or a chain.
+void inspector_bone_field(struct inspector *in, const struct dropdown *list, struct rect r, int which,
+                          const char *text, int of);
 /// The open list of a model's bones below `top` (−1: all), by name; the picked node, or −1.
 int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen);
 
@@ -141,7 +182,7 @@ struct number_home {
 
 struct number_row {
     const char *name, *label, *unit, *hint; ///< as in struct ui_number
-    const char *undo;                       ///< label of its undo step; NULL: set() makes no edit
+    const char *undo;                       ///< as in struct row
     size_t at;                              ///< offset in the struct, for number_at()
     bool is_whole;                          ///< stored as an int
     double minimum, maximum;                ///< of the bar
@@ -181,18 +222,6 @@ struct rect inspector_labelled(struct inspector *in, const char *label);
 
 /// A row with nothing to set, so that rows below stay in place.
 void inspector_idle(struct inspector *in, const char *label, const char *text);
-
-/// A labelled row of segments; true if `*chosen` changed.
-bool inspector_choice(struct inspector *in, const char *label, const char *hint, const char *name,
-                      const struct ui_choice *choices, int count, int *chosen);
-
-struct icon_button {
-    const char *name, *hint;
-    enum ui_icon icon;
-};
-enum { INSPECTOR_ICON = 24 };
-/// Icon buttons from left to right; the pressed one, or -1.
-int inspector_icons(struct inspector *in, struct rect r, const struct icon_button *buttons, int count);
 
 /// The first of `most` visible rows of a list that follows the chosen one.
 int inspector_first_row(int count, int chosen, int most);
