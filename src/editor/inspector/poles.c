@@ -13,6 +13,7 @@
 enum { SCAN = 512, BISECTIONS = 60 };
 static const double half_power = 3.0102999566398120; // dB, 10 log₁₀ 2
 static const double least = 1e-24;                   // |1 − λ z⁻¹|² at a pole on the circle
+static const double golden = 0.6180339887498949;
 
 static void add_pole(struct filter *filter, double re, double im)
 {
@@ -52,38 +53,6 @@ double filter_decibels(const struct filter *filter, double hz)
     return decibels;
 }
 
-/// Golden-section search for the maximum between two frequencies.
-static double climb(const struct filter *filter, double low, double high)
-{
-    const double golden = 0.6180339887498949;
-    for (int i = 0; i < BISECTIONS; i++) {
-        double a = high - golden * (high - low), b = low + golden * (high - low);
-        if (filter_decibels(filter, a) < filter_decibels(filter, b)) {
-            low = a;
-        } else {
-            high = b;
-        }
-    }
-    return 0.5 * (low + high);
-}
-
-/// The peak lies near a pole or between two, so a grid and the poles themselves bracket it.
-static double find_peak(const struct filter *filter)
-{
-    double nyquist = 0.5 / filter->step, spacing = nyquist / SCAN, best = 0;
-    for (int i = 1; i <= SCAN; i++) {
-        if (filter_decibels(filter, i * spacing) > filter_decibels(filter, best)) best = i * spacing;
-    }
-    for (int i = 0; i < filter->count; i++) {
-        double hz = filter->s[i][1] / (2 * M_PI);
-        if (hz < 0 || hz > nyquist || filter_decibels(filter, hz) <= filter_decibels(filter, best)) continue;
-        best = hz;
-        spacing = fmax(fabs(filter->s[i][0]) / (2 * M_PI), 1e-9 * nyquist);
-    }
-    double refined = climb(filter, fmax(0, best - spacing), fmin(nyquist, best + spacing));
-    return filter_decibels(filter, refined) > filter_decibels(filter, best) ? refined : best;
-}
-
 /// Where the response falls below a level between `inside` (above it) and `outside`.
 static double crossing(const struct filter *filter, double inside, double outside, double level)
 {
@@ -101,7 +70,28 @@ static double crossing(const struct filter *filter, double inside, double outsid
 
 struct passband filter_passband(const struct filter *filter)
 {
-    double nyquist = 0.5 / filter->step, low = find_peak(filter), high = low;
+    // The peak lies near a pole or between two, so a grid and the poles themselves bracket it.
+    double nyquist = 0.5 / filter->step, spacing = nyquist / SCAN, best = 0;
+    for (int i = 1; i <= SCAN; i++) {
+        if (filter_decibels(filter, i * spacing) > filter_decibels(filter, best)) best = i * spacing;
+    }
+    for (int i = 0; i < filter->count; i++) {
+        double hz = filter->s[i][1] / (2 * M_PI);
+        if (hz < 0 || hz > nyquist || filter_decibels(filter, hz) <= filter_decibels(filter, best)) continue;
+        best = hz;
+        spacing = fmax(fabs(filter->s[i][0]) / (2 * M_PI), 1e-9 * nyquist);
+    }
+    double low = fmax(0, best - spacing), high = fmin(nyquist, best + spacing);
+    for (int i = 0; i < BISECTIONS; i++) { // golden-section search
+        double a = high - golden * (high - low), b = low + golden * (high - low);
+        if (filter_decibels(filter, a) < filter_decibels(filter, b)) {
+            low = a;
+        } else {
+            high = b;
+        }
+    }
+    const double refined = 0.5 * (low + high);
+    low = high = filter_decibels(filter, refined) > filter_decibels(filter, best) ? refined : best;
     struct passband band = {.peak = filter_decibels(filter, low)};
     band.zero = filter_decibels(filter, 0) - band.peak;
     double level = band.peak - half_power;
@@ -206,11 +196,6 @@ static float poles_y(const struct poles_view *view, struct rect inset, double da
     return inset.y + inset.h * (1 - (float)sqrt(fmin(1, damping / view->top)));
 }
 
-static double poles_hz(const struct poles_view *view, struct rect inset, float x)
-{
-    return fmax(0, (x - inset.x) / inset.w) * view->reach;
-}
-
 static void draw_cross(struct drawlist *list, float x, float y, float arm, uint32_t color)
 {
     const float falling[] = {x - arm, y - arm, x + arm, y + arm}, rising[] = {x - arm, y + arm, x + arm, y - arm};
@@ -224,9 +209,17 @@ static void draw_straight(struct drawlist *list, float x0, float y0, float x1, f
     drawlist_line(list, xy, 2, 1, color);
 }
 
-/// The unit circle with the filter's poles.
-static void poles_draw_circle(const struct pole_setting *setting, struct rect r, struct drawlist *list)
+/// The current filter has the accent colour.
+static uint32_t filter_color(const struct poles_view *view, enum filter_kind kind)
 {
+    static const int spare[FILTER_KINDS] = {1, 2, 1};
+    return view->setting.kind == kind ? theme()->accent : theme()->spline[spare[kind]];
+}
+
+/// The unit circle with the filter's poles; beside it name, response at zero frequency and width of the three filters.
+static void draw_overview(const struct poles_view *view, struct rect r, struct rect legend, struct drawlist *list)
+{
+    const struct pole_setting *setting = &view->setting;
     enum { POINTS = 65 };
     float radius = fminf(r.w, r.h) / 2 - 6, cx = r.x + r.w / 2, cy = r.y + r.h / 2, circle[POINTS][2];
     for (int i = 0; i < POINTS; i++) {
@@ -243,32 +236,21 @@ static void poles_draw_circle(const struct pole_setting *setting, struct rect r,
         draw_cross(list, cx + (float)(size * maths_cos(angle)), cy - (float)(size * maths_sin(angle)), 3,
                    theme()->accent);
     }
-}
 
-/// The current filter has the accent colour.
-static uint32_t filter_color(const struct poles_view *view, enum filter_kind kind)
-{
-    static const int spare[FILTER_KINDS] = {1, 2, 1};
-    return view->setting.kind == kind ? theme()->accent : theme()->spline[spare[kind]];
-}
-
-/// Name, response at zero frequency, and width of the three filters.
-static void poles_draw_legend(const struct poles_view *view, struct rect r, struct drawlist *list)
-{
     static const enum filter_kind order[FILTER_KINDS] = {FILTER_TWO_COMPLEX, FILTER_TWO_REAL, FILTER_FOUR_REAL};
     const float row = 33;
-    drawlist_text(list, r.x, r.y + 8, FONT_LABEL, THEME_TEXT_SMALL, theme()->text_dim, "at 0 Hz · width");
+    drawlist_text(list, legend.x, legend.y + 8, FONT_LABEL, THEME_TEXT_SMALL, theme()->text_dim, "at 0 Hz · width");
     for (int i = 0; i < FILTER_KINDS; i++) {
         const struct passband *band = &view->band[order[i]];
         bool own = view->setting.kind == order[i];
         uint32_t color = filter_color(view, order[i]), text_color = own ? theme()->text : theme()->text_dim;
         char text[64];
-        float y = r.y + 26 + row * (float)i;
-        drawlist_rounded(list, (struct rect){r.x, y - 8, 3, 24}, 1.5f, color);
-        drawlist_text(list, r.x + 9, y, own ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL, text_color,
+        float y = legend.y + 26 + row * (float)i;
+        drawlist_rounded(list, (struct rect){legend.x, y - 8, 3, 24}, 1.5f, color);
+        drawlist_text(list, legend.x + 9, y, own ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL, text_color,
                       filter_name[order[i]]);
         snprintf(text, sizeof text, "%.1f dB %.3g Hz", band->zero, band->width);
-        drawlist_text_fit(list, r.x + 9, y + 14, r.w - 9, FONT_NUMBER, THEME_TEXT_SMALL, text_color, text);
+        drawlist_text_fit(list, legend.x + 9, y + 14, legend.w - 9, FONT_NUMBER, THEME_TEXT_SMALL, text_color, text);
     }
 }
 
@@ -282,39 +264,6 @@ static void draw_below(struct drawlist *list, struct rect r, float x, float y, c
 {
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
     draw_number(list, fmaxf(r.x, fminf(r.x + r.w - width, x - width / 2)), y, text);
-}
-
-static void poles_draw_inset(const struct poles_view *view, const struct pole_setting *setting, struct rect r,
-                             struct drawlist *list)
-{
-    static const double dampings[] = {0, 0.05, 0.2, 0.5, 1, 2};
-    char text[32];
-    drawlist_rounded(list, r, 3, theme()->raised);
-    for (int i = 0; i < 6 && dampings[i] < view->top; i++) {
-        float y = poles_y(view, r, dampings[i]);
-        draw_straight(list, r.x, y, r.x + r.w, y, theme()->grid_major);
-        snprintf(text, sizeof text, "ζ %g", dampings[i]);
-        if (i > 0) draw_number(list, r.x + 4, y - 3, text);
-    }
-    for (int i = 1; i <= 3; i++) {
-        double hz = view->reach * i / 4;
-        float x = poles_x(view, r, hz);
-        draw_straight(list, x, r.y, x, r.y + r.h, theme()->grid_major);
-        snprintf(text, sizeof text, "%.4g Hz", hz);
-        draw_below(list, r, x, r.y + r.h + 12, text);
-    }
-    float y = poles_y(view, r, setting->damping), spread = 0;
-    if (setting->kind == FILTER_TWO_COMPLEX) spread = (float)(setting->hz * setting->bandwidth);
-    struct rect whole = drawlist_push_clip(list, rect_inset(r, -6));
-    if (spread > 0) {
-        float low = poles_x(view, r, setting->hz - spread), high = poles_x(view, r, setting->hz + spread);
-        draw_straight(list, low, y, high, y, theme_fade(theme()->accent, 0.5f));
-        draw_cross(list, low, y, 3.5f, theme()->accent);
-        draw_cross(list, high, y, 3.5f, theme()->accent);
-    }
-    float x = poles_x(view, r, setting->hz);
-    drawlist_disc(list, (const float[2]){x, y}, 3.5f, theme()->text);
-    drawlist_set_clip(list, whole);
 }
 
 static void draw_curve(const struct poles_view *view, enum filter_kind kind, struct rect plot, struct drawlist *list)
@@ -365,67 +314,74 @@ static double value_now(const struct inspector *in, const struct spline *spline,
 
 enum { HANDLE_CENTRE, HANDLE_LOWER, HANDLE_UPPER, HANDLES };
 
-static double rounded(double value, double steps) { return round(value * steps) / steps; }
-
-/// Sets a parameter unless it follows a track.
-static bool set_pole(struct inspector *in, enum parameter parameter, double number)
+/// Sets a parameter, rounded, unless it follows a track.
+static void set_pole(struct inspector *in, enum parameter parameter, double number, double steps)
 {
-    const struct spline *spline = core_active_spline(in->core);
-    return spline->parameter[parameter].track >= 0 ||
-           core_set_parameter(in->core, in->core->focus.active, parameter, number);
+    if (core_active_spline(in->core)->parameter[parameter].track < 0)
+        core_set_parameter(in->core, in->core->focus.active, parameter, round(number * steps) / steps);
 }
 
-/// The setting after a handle moved.
-static struct pole_setting moved_to(const struct inspector *in, struct pole_setting setting, struct rect inset,
-                                    int which, enum ui_change change, const struct ui_handle *handle)
-{
-    const struct poles_view *view = &in->poles;
-    double highest = fmin(12, 0.5 / setting.step), most = setting.kind == FILTER_TWO_REAL ? 3 : 1;
-    double hz = setting.hz, side = which == HANDLE_LOWER ? -1 : 1;
-    if (change == UI_NUDGE) {
-        setting.damping += 0.01 * handle->step_y;
-        if (which == HANDLE_CENTRE) {
-            setting.hz += 0.05 * handle->step_x;
-        } else {
-            setting.bandwidth += side * 0.01 * handle->step_x;
-        }
-    } else {
-        const double part = fmax(0, fmin(1, 1 - (handle->y - inset.y) / inset.h));
-        setting.damping = part * part * view->top;
-        if (which == HANDLE_CENTRE) {
-            setting.hz = poles_hz(view, inset, handle->x);
-        } else {
-            setting.bandwidth = side * (poles_hz(view, inset, handle->x) - hz) / hz;
-        }
-    }
-    setting.hz = fmax(0.01, fmin(highest, setting.hz));
-    setting.damping = fmax(0, fmin(most, setting.damping));
-    setting.bandwidth = fmax(0, fmin(1, setting.bandwidth));
-    return setting;
-}
-
-static void build_inset(struct inspector *in, const struct pole_setting *setting)
+/// The poles in the plane of frequency and damping, and handles on them.
+static void build_inset(struct inspector *in, struct pole_setting setting)
 {
     struct poles_view *view = &in->poles;
-    struct rect row = ui_row(&in->ui, INSET + TICKS), inset = {row.x, row.y, row.w, INSET};
-    float y = poles_y(view, inset, setting->damping);
-    double spread = setting->hz * setting->bandwidth;
+    const struct rect row = ui_row(&in->ui, INSET + TICKS), r = {row.x, row.y, row.w, INSET};
+    const double spread = setting.kind == FILTER_TWO_COMPLEX ? setting.hz * setting.bandwidth : 0;
+    const float x = poles_x(view, r, setting.hz), y = poles_y(view, r, setting.damping);
+    const float low = poles_x(view, r, setting.hz - spread), high = poles_x(view, r, setting.hz + spread);
     struct ui_handle handles[HANDLES] = {
-        [HANDLE_CENTRE] = {"pole.centre", "Drag sideways for frequency, up for damping (Shift: fine)",
-                           .x = poles_x(view, inset, setting->hz), .y = y},
-        [HANDLE_LOWER] = {"pole.lower", "Pole: drag sideways for bandwidth, up for damping",
-                          .x = poles_x(view, inset, setting->hz - spread), .y = y},
-        [HANDLE_UPPER] = {"pole.upper", "Pole: drag sideways for bandwidth, up for damping",
-                          .x = poles_x(view, inset, setting->hz + spread), .y = y}};
-    int which = 0, count = setting->kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
-    if (in->ui.pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui.list);
-    enum ui_change change = ui_handles(&in->ui, row, handles, count, &which);
-    if (change == UI_NONE || !inspector_step(in, change, "Move poles", handles[which].name)) return;
-    const struct pole_setting wanted = moved_to(in, *setting, inset, which, change, &handles[which]);
+        [HANDLE_CENTRE] = {"pole.centre", "Drag sideways for frequency, up for damping (Shift: fine)", .x = x,
+                           .y = y},
+        [HANDLE_LOWER] = {"pole.lower", "Pole: drag sideways for bandwidth, up for damping", .x = low, .y = y},
+        [HANDLE_UPPER] = {"pole.upper", "Pole: drag sideways for bandwidth, up for damping", .x = high, .y = y}};
+    if (in->ui.pass == UI_PASS_DRAW) {
+        static const double dampings[] = {0, 0.05, 0.2, 0.5, 1, 2};
+        struct drawlist *list = in->ui.list;
+        char text[32];
+        drawlist_rounded(list, r, 3, theme()->raised);
+        for (int i = 0; i < 6 && dampings[i] < view->top; i++) {
+            const float line = poles_y(view, r, dampings[i]);
+            draw_straight(list, r.x, line, r.x + r.w, line, theme()->grid_major);
+            snprintf(text, sizeof text, "ζ %g", dampings[i]);
+            if (i > 0) draw_number(list, r.x + 4, line - 3, text);
+        }
+        for (int i = 1; i <= 3; i++) {
+            const double hz = view->reach * i / 4;
+            const float line = poles_x(view, r, hz);
+            draw_straight(list, line, r.y, line, r.y + r.h, theme()->grid_major);
+            snprintf(text, sizeof text, "%.4g Hz", hz);
+            draw_below(list, r, line, r.y + r.h + 12, text);
+        }
+        const struct rect whole = drawlist_push_clip(list, rect_inset(r, -6));
+        if (spread > 0) {
+            draw_straight(list, low, y, high, y, theme_fade(theme()->accent, 0.5f));
+            draw_cross(list, low, y, 3.5f, theme()->accent);
+            draw_cross(list, high, y, 3.5f, theme()->accent);
+        }
+        drawlist_disc(list, (const float[2]){x, y}, 3.5f, theme()->text);
+        drawlist_set_clip(list, whole);
+    }
+    int which = 0;
+    const int count = setting.kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
+    const enum ui_change change = ui_handles(&in->ui, row, handles, count, &which);
+    const struct ui_handle *handle = &handles[which];
     const bool centre = which == HANDLE_CENTRE;
-    if (centre) set_pole(in, PARAMETER_FREQUENCY, rounded(wanted.hz, 100));
-    set_pole(in, PARAMETER_DAMPING, rounded(wanted.damping, 1000));
-    if (!centre) set_pole(in, PARAMETER_BANDWIDTH, rounded(wanted.bandwidth, 1000));
+    if (change == UI_NONE || !inspector_step(in, change, "Move poles", handle->name)) return;
+    const double side = which == HANDLE_LOWER ? -1 : 1, highest = fmin(12, 0.5 / setting.step);
+    double hz = setting.hz, damping = setting.damping, bandwidth = setting.bandwidth;
+    if (change == UI_NUDGE) {
+        damping += 0.01 * handle->step_y;
+        hz += 0.05 * handle->step_x; // of the centre
+        bandwidth += side * 0.01 * handle->step_x;
+    } else {
+        const double part = fmax(0, fmin(1, 1 - (handle->y - r.y) / r.h));
+        damping = part * part * view->top;
+        hz = fmax(0, (handle->x - r.x) / r.w) * view->reach;
+        bandwidth = side * (hz - setting.hz) / setting.hz;
+    }
+    if (centre) set_pole(in, PARAMETER_FREQUENCY, fmax(0.01, fmin(highest, hz)), 100);
+    set_pole(in, PARAMETER_DAMPING, fmax(0, fmin(setting.kind == FILTER_TWO_REAL ? 3 : 1, damping)), 1000);
+    if (!centre) set_pole(in, PARAMETER_BANDWIDTH, fmax(0, fmin(1, bandwidth)), 1000);
 }
 
 void inspector_poles(struct inspector *in)
@@ -474,11 +430,10 @@ void inspector_poles(struct inspector *in)
     ui_hint(ui, circle, "Unit circle: poles inside are stable; angle is frequency, distance from the rim damping");
     if (ui->pass == UI_PASS_DRAW) {
         struct rect legend = {top.x + CIRCLE + UI_GAP, top.y, top.w - CIRCLE - UI_GAP, CIRCLE};
-        poles_draw_circle(&setting, circle, ui->list);
-        poles_draw_legend(view, legend, ui->list);
+        draw_overview(view, circle, legend, ui->list);
     }
     ui_space(ui, 6);
-    build_inset(in, &setting);
+    build_inset(in, setting);
     ui_space(ui, 4);
     struct rect response = ui_row(ui, RESPONSE);
     ui_hint(ui, response, "Response in dB over Hz: a wiggly spline rejects low frequencies");
