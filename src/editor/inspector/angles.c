@@ -13,15 +13,19 @@
 enum { SWITCH = 24, MOST_REACH = 1024 }; ///< pixels: width of a form button
 
 static const struct number_row rows[] = {
-    [ANGLE_REST] = {BAR(-15, 15), .name = "rest", .label = "rest", .unit = "°",
-                    .hint = "Upward bend of each joint at rest", .undo = "Set rest pose", TYPED(-36000, 36000),
-                    .step = 0.5, .decimals = 1},
-    [ANGLE_LAG] = {BAR(0, 30), .name = "lag", .label = "lag", .unit = "°",
-                   .hint = "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)",
-                   .undo = "Set lag", TYPED(-36000, 36000), .fallback = 6.5, .step = 0.5, .decimals = 1},
-    [ANGLE_GAIN] = {BAR(0, 20), .name = "gain", .label = "gain", .unit = "°",
-                    .hint = "How far each joint bends when the spline is 1", .undo = "Set gain", TYPED(-36000, 36000),
-                    .fallback = 5, .step = 0.5, .decimals = 1},
+    [ANGLE_REST] = {.undo = "Set rest pose",
+                    .ui = {NAMED("rest", "rest"), BAR(-15, 15), .unit = "°",
+                           .hint = "Upward bend of each joint at rest", TYPED(-36000, 36000), .step = 0.5,
+                           .decimals = 1}},
+    [ANGLE_LAG] = {.undo = "Set lag",
+                   .ui = {NAMED("lag", "lag"), BAR(0, 30), .unit = "°",
+                          .hint =
+                              "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)",
+                          TYPED(-36000, 36000), .fallback = 6.5, .step = 0.5, .decimals = 1}},
+    [ANGLE_GAIN] = {.undo = "Set gain",
+                    .ui = {NAMED("gain", "gain"), BAR(0, 20), .unit = "°",
+                           .hint = "How far each joint bends when the spline is 1", TYPED(-36000, 36000),
+                           .fallback = 5, .step = 0.5, .decimals = 1}},
 };
 
 static bool set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles, struct error *error)
@@ -37,77 +41,42 @@ static void change_angles(struct inspector *in, enum angle_kind kind, enum ui_ch
     if (inspector_step(in, change, label, what)) set_angles(in, kind, angles, &in->core->step.error);
 }
 
-/// Factor that extends a slider's ends to include its angle; constant during a drag.
-static double reach_of(struct inspector *in, enum angle_kind kind, double angle)
-{
-    double *reach = &in->angle_reach[kind];
-    if (*reach >= 1 && in->ui.held == ui_id(&in->ui, rows[kind].name)) return *reach;
-    *reach = 1;
-    while (fabs(angle) > *reach * rows[kind].maximum && *reach < MOST_REACH) *reach *= 2;
-    return *reach;
-}
-
-static const struct angles *angles_of(const struct inspector *in, int kind)
-{
-    const struct rig *rig = inspector_shown(in);
-    if (kind == ANGLE_REST) return &rig->tail.rest;
-    const struct channel *channel = &rig->bent.channels[in->channel];
-    return kind == ANGLE_LAG ? &channel->lag : &channel->gain;
-}
-
-/// The same as they were before, or NULL.
-static const struct angles *kept_angles(const struct inspector *in, int kind)
+/// The shown angles, or if `kept` those before; NULL: none.
+static const struct angles *angles_of(const struct inspector *in, int kind, bool kept)
 {
     int count = 0;
-    const struct rig *rig = take_rig(in->core, in->rig);
+    const struct rig *rig = kept ? take_rig(in->core, in->rig) : inspector_shown(in);
     const struct channel *channels = rig ? rig_channels(rig, &count) : NULL;
     if (rig && kind == ANGLE_REST) return &rig->tail.rest;
-    if (in->channel >= count || channels[in->channel].spline != take_spline(in->core, in->core->focus.active))
-        return NULL;
-    return kind == ANGLE_LAG ? &channels[in->channel].lag : &channels[in->channel].gain;
-}
-
-static double get_largest(const struct inspector *in, int kind) { return angles_largest(angles_of(in, kind)); }
-
-static double was_largest(const struct inspector *in, int kind)
-{
-    const struct angles *kept = kept_angles(in, kind);
-    return kept ? angles_largest(kept) : NAN;
-}
-
-static bool set_largest(struct inspector *in, int kind, double number, struct error *error)
-{
-    struct angles next = *angles_of(in, kind);
-    angles_scale(&next, number);
-    if (kind != ANGLE_LAG) return set_angles(in, (enum angle_kind)kind, &next, error);
-    return core_set_lag(in->core, inspector_limb(in), (struct channel_place){in->rig, in->channel}, &next, error);
+    if (in->channel >= count) return NULL;
+    const struct channel *channel = &channels[in->channel];
+    if (kept && channel->spline != take_spline(in->core, in->core->focus.active)) return NULL;
+    return kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
 /// Gains of channels that move the body may be in percent.
 static const char *unit_of(const struct inspector *in, int kind)
 {
-    return kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : rows[kind].unit;
+    return kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : rows[kind].ui.unit;
 }
 
-/// The first and last of several angles.
-static const char *show_ends(const struct inspector *in, int kind, char text[64])
+/// The largest of several angles; the first and last of them as text.
+static double get_largest(const struct inspector *in, int kind, bool kept, char text[64])
 {
-    const struct angles *kept = take_is_shown(in->core) ? kept_angles(in, kind) : NULL;
-    const struct angles *angles = kept ? kept : angles_of(in, kind);
-    if (angles->form == ANGLES_ONE) return NULL;
-    snprintf(text, 64, "%.1f → %.1f%s", printable_number(angles_number(angles, 0), 0.1),
-             printable_number(angles_number(angles, angles->count - 1), 0.1), unit_of(in, kind));
-    return text;
+    const struct angles *angles = angles_of(in, kind, kept);
+    if (!angles) return NAN;
+    if (angles->form != ANGLES_ONE)
+        snprintf(text, 64, "%.1f → %.1f%s", printable_number(angles_number(angles, 0), 0.1),
+                 printable_number(angles_number(angles, angles->count - 1), 0.1), unit_of(in, kind));
+    return angles_largest(angles);
 }
 
-/// One angle for all that changes the pose least: the mean, or for lags the last one divided evenly.
-static struct angles one_angle(const struct angles *angles, enum angle_kind kind, int joints)
+static bool set_largest(struct inspector *in, int kind, double number, struct error *error)
 {
-    double sum = 0;
-    for (int n = 0; n < joints; n++) sum += angles_at(angles, n, joints);
-    const double last = angles_at(angles, joints - 1, joints);
-    const double one = kind != ANGLE_LAG ? sum / joints : joints > 1 ? last / (joints - 1) : 0;
-    return (struct angles){.form = ANGLES_ONE, .value = {round(one * 1e4) / 1e4}};
+    struct angles next = *angles_of(in, kind, false);
+    angles_scale(&next, number);
+    if (kind != ANGLE_LAG) return set_angles(in, (enum angle_kind)kind, &next, error);
+    return core_set_lag(in->core, inspector_limb(in), (struct channel_place){in->rig, in->channel}, &next, error);
 }
 
 /// The button at the right end of a row switches to a form, or back to one angle for all; true if pressed.
@@ -116,14 +85,21 @@ static bool build_switch(struct inspector *in, enum angle_kind kind, const struc
 {
     const bool ramp = next->form == ANGLES_RAMP, lit = angles->form == next->form;
     char name[32];
-    snprintf(name, sizeof name, "%s.%s", rows[kind].name, ramp ? "ramp" : "each");
+    snprintf(name, sizeof name, "%s.%s", rows[kind].ui.name, ramp ? "ramp" : "each");
     const char *hint = lit    ? "Use one angle for all joints"
                        : ramp ? "Draw the angles along the joints as a curve through a few points"
                               : "Give each joint an angle of its own";
-    if (!ui_icon_button(&in->ui, r, name, ramp ? UI_ICON_RAMP : UI_ICON_EACH, lit, hint)) return false;
+    const struct row form = {ICON(name, ramp ? UI_ICON_RAMP : UI_ICON_EACH), .lit = lit, .hint = hint,
+                             .undo = rows[kind].undo};
+    if (!inspector_icon(in, r, &form)) return false;
+    // The one angle that changes the pose least: the mean, or for lags the last one divided evenly.
     const int joints = bones_joints(in->core, in->rig);
-    const struct angles one = one_angle(angles, kind, joints);
-    change_angles(in, kind, UI_SET, rows[kind].undo, NULL, lit ? &one : next);
+    double sum = 0;
+    for (int n = 0; n < joints; n++) sum += angles_at(angles, n, joints);
+    const double last = angles_at(angles, joints - 1, joints);
+    const double mean = kind != ANGLE_LAG ? sum / joints : joints > 1 ? last / (joints - 1) : 0;
+    const struct angles one = {.form = ANGLES_ONE, .value = {round(mean * 1e4) / 1e4}};
+    set_angles(in, kind, lit ? &one : next, &in->core->step.error);
     return true;
 }
 
@@ -157,7 +133,7 @@ static void place_angle(const struct angle_view *view, int i, float xy[2])
 static double angle_at(const struct angle_view *view, float y)
 {
     const double share = (double)((y - view->plot.y) / view->plot.h);
-    return core_round(view->high - share * (view->high - view->low), rows[view->kind].step / 5);
+    return core_round(view->high - share * (view->high - view->low), rows[view->kind].ui.step / 5);
 }
 
 static bool is_held(const struct angle_view *view, const struct ui *ui)
@@ -179,9 +155,9 @@ static void lay_out(struct inspector *in, struct angle_view *view)
     view->plot = rect_inset(view->box, INSET);
     view->selected = in->joint[view->kind];
     view->handle_count = is_ramp ? angles->count : 1;
-    snprintf(view->names[0], NAME, "%s.curve", rows[view->kind].name);
+    snprintf(view->names[0], NAME, "%s.curve", rows[view->kind].ui.name);
     for (int i = 0; is_ramp && i < angles->count; i++)
-        snprintf(view->names[i], NAME, "%s.point.%d", rows[view->kind].name, i);
+        snprintf(view->names[i], NAME, "%s.point.%d", rows[view->kind].ui.name, i);
     if (!is_held(view, &in->ui)) {
         scale[0] = 0;
         scale[1] = LEAST;
@@ -210,26 +186,30 @@ static struct ramp_point point_at(const struct angle_view *view, float x, float 
     return (struct ramp_point){round(fmin(fmax(at, 0), 1) * PLACES) / PLACES, angle_at(view, y)};
 }
 
-static void change_point(struct inspector *in, const struct angle_view *view, enum ui_change change, int which)
-{
-    const struct ui_handle *handle = &view->handles[which];
-    struct angles next = *view->angles;
-    struct ramp_point point = point_at(view, handle->x, handle->y);
-    if (change == UI_NUDGE) {
-        point = next.ramp[which];
-        point.at += handle->step_x / PLACES;
-        point.angle += handle->step_y * rows[view->kind].step;
-    }
-    const double low = which > 0 ? next.ramp[which - 1].at + APART : 0; // between its neighbours
-    const double high = which + 1 < next.count ? next.ramp[which + 1].at - APART : 1;
-    next.ramp[which] = (struct ramp_point){fmin(fmax(point.at, low), high), point.angle};
-    change_angles(in, view->kind, change, rows[view->kind].undo, handle->name, &next);
-}
-
-/// A double-click adds a point; a right click or Del on a focused one removes it. A press on a point focuses it for arrow keys and Del.
-static void take_event(struct inspector *in, const struct angle_view *view)
+/// The points of a ramp. A double-click adds one; a right click or Del on a focused one removes it. A press on a point focuses it for
+/// arrow keys and Del.
+static void build_ramp(struct inspector *in, struct angle_view *view)
 {
     struct ui *ui = &in->ui;
+    struct angles next = *view->angles;
+    int which = 0;
+    ui_hint(ui, view->box, "From the first joint to the tip; double-click adds a point");
+    const enum ui_change change = ui_handles(ui, view->box, view->handles, view->handle_count, &which);
+    if (change != UI_NONE) {
+        const struct ui_handle *handle = &view->handles[which];
+        struct ramp_point point = point_at(view, handle->x, handle->y);
+        if (change == UI_NUDGE) {
+            point = next.ramp[which];
+            point.at += handle->step_x / PLACES;
+            point.angle += handle->step_y * rows[view->kind].ui.step;
+        }
+        const double low = which > 0 ? next.ramp[which - 1].at + APART : 0; // between its neighbours
+        const double high = which + 1 < next.count ? next.ramp[which + 1].at - APART : 1;
+        next.ramp[which] = (struct ramp_point){fmin(fmax(point.at, low), high), point.angle};
+        change_angles(in, view->kind, change, rows[view->kind].undo, handle->name, &next);
+        return;
+    }
+    if (ui->pass != UI_PASS_EVENT) return;
     const struct event *event = ui->event;
     const bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && event->button == BUTTON_LEFT;
     if (press && is_held(view, ui)) ui->focus = ui->held;
@@ -247,7 +227,6 @@ static void take_event(struct inspector *in, const struct angle_view *view)
     const bool adds = press && event->clicks == 2 && ui_hovered(ui, view->box);
     if (removed < 0 && !adds) return;
     ui->used = true;
-    struct angles next = *view->angles;
     if (adds) {
         const struct ramp_point point = point_at(view, event->x, event->y);
         int i = 0;
@@ -274,8 +253,24 @@ static int joint_at(const struct angle_view *view, float x)
     return (int)fminf(fmaxf(joint, 0), (float)last);
 }
 
+static double get_joint(const struct inspector *in, int kind, bool kept, char text[64])
+{
+    (void)text;
+    return kept ? NAN : angles_of(in, kind, false)->value[in->joint[kind]];
+}
+
+static bool set_joint(struct inspector *in, int kind, double number, struct error *error)
+{
+    struct angles next = *angles_of(in, kind, false);
+    next.value[in->joint[kind]] = number;
+    return set_angles(in, (enum angle_kind)kind, &next, error);
+}
+
+/// One angle per joint: drawn by dragging, and the selected joint's number.
 static void build_each(struct inspector *in, struct angle_view *view)
 {
+    static const struct number_home home = {.get = get_joint, .set = set_joint};
+    struct number_row number = rows[view->kind];
     struct ui *ui = &in->ui;
     int which;
     ui_hint(ui, view->box, view->handles->hint);
@@ -294,12 +289,11 @@ static void build_each(struct inspector *in, struct angle_view *view)
     if (change == UI_NUDGE) {                    // ← → select a joint, ↑ ↓ change its angle
         const int last = view->angles->count - 1, next = view->selected + handle->step_x;
         in->joint[view->kind] = next < 0 ? 0 : next > last ? last : next;
-        if (handle->step_y == 0) return;
         struct angles angles = *view->angles;
         char what[NAME];
-        snprintf(what, NAME, "%s.joint.%d", rows[view->kind].name, view->selected);
-        angles.value[view->selected] += handle->step_y * rows[view->kind].step;
-        change_angles(in, view->kind, UI_NUDGE, rows[view->kind].undo, what, &angles);
+        snprintf(what, NAME, "%s.joint.%d", number.ui.name, view->selected);
+        angles.value[view->selected] += handle->step_y * number.ui.step;
+        if (handle->step_y != 0) change_angles(in, view->kind, UI_NUDGE, number.undo, what, &angles);
     } else if (change == UI_DRAG) { // puts all joints between the last position of the pointer and this one on a line
         const int from = joint_at(view, in->drawn_x), to = joint_at(view, handle->x), way = to >= from ? 1 : -1;
         for (int n = from; n != to + way; n += way) {
@@ -310,21 +304,22 @@ static void build_each(struct inspector *in, struct angle_view *view)
         in->drawn_y = handle->y;
         in->joint[view->kind] = to;
     }
-    if (change != UI_NONE && change != UI_NUDGE) {
-        change_angles(in, view->kind, change, rows[view->kind].undo, view->names[0], &in->drawn);
-    }
+    if (change != UI_NONE && change != UI_NUDGE)
+        change_angles(in, view->kind, change, number.undo, view->names[0], &in->drawn);
+
+    char name[NAME], label[NAME];
+    snprintf(name, NAME, "%s.joint", number.ui.name);
+    snprintf(label, NAME, "joint %d", in->joint[view->kind] + 1);
+    number.ui.name = name;
+    number.ui.label = label;
+    number.ui.unit = unit_of(in, (int)view->kind);
+    number.ui.hint = "Angle of the joint selected in the curve above";
+    number.ui.minimum = number.ui.maximum = 0; // no bar
+    number.ui.fallback = NAN;
+    inspector_number(in, &number, &home, (int)view->kind, ui_row(ui, UI_ROW));
 }
 
-static double get_joint(const struct inspector *in, int kind) { return angles_of(in, kind)->value[in->joint[kind]]; }
-
-static bool set_joint(struct inspector *in, int kind, double number, struct error *error)
-{
-    struct angles next = *angles_of(in, kind);
-    next.value[in->joint[kind]] = number;
-    return set_angles(in, (enum angle_kind)kind, &next, error);
-}
-
-/// The curve of several angles, and for per-joint angles the selected joint's number.
+/// The curve of several angles.
 static void build_curve(struct inspector *in, enum angle_kind kind, const struct angles *angles)
 {
     struct angle_view view = {.kind = kind, .angles = angles};
@@ -354,31 +349,8 @@ static void build_curve(struct inspector *in, enum angle_kind kind, const struct
         drawlist_line(list, line[is_ramp ? 0 : 1], is_ramp ? count + 2 : count, 1.5f, theme()->accent);
         if (!is_ramp) drawlist_disc(list, line[view.selected + 1], 3.5f, theme()->accent);
     }
-    if (is_ramp) {
-        int which = 0;
-        ui_hint(&in->ui, view.box, "From the first joint to the tip; double-click adds a point");
-        const enum ui_change change = ui_handles(&in->ui, view.box, view.handles, view.handle_count, &which);
-        if (change != UI_NONE) {
-            change_point(in, &view, change, which);
-        } else if (in->ui.pass == UI_PASS_EVENT) {
-            take_event(in, &view);
-        }
-        return;
-    }
-
-    static const struct number_home home = {.get = get_joint, .set = set_joint};
-    build_each(in, &view);
-    struct number_row number = rows[kind];
-    char name[NAME], label[NAME];
-    snprintf(name, NAME, "%s.joint", number.name);
-    snprintf(label, NAME, "joint %d", *joint + 1);
-    number.name = name;
-    number.label = label;
-    number.unit = unit_of(in, (int)kind);
-    number.hint = "Angle of the joint selected in the curve above";
-    number.minimum = number.maximum = 0; // no bar
-    number.fallback = NAN;
-    inspector_number(in, &number, &home, (int)kind, ui_row(&in->ui, UI_ROW));
+    if (is_ramp) build_ramp(in, &view);
+    if (!is_ramp) build_each(in, &view);
 }
 
 float inspector_highest_curve(const struct inspector *in, enum angle_kind kind)
@@ -400,21 +372,25 @@ void inspector_angles(struct inspector *in, enum angle_kind kind)
     const int joints = bones_joints(in->core, in->rig);
     struct rect r = ui_row(&in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
     left.x -= SWITCH;
-    static const struct number_home home = {
-        .get = get_largest, .set = set_largest, .shown = show_ends, .was = was_largest};
-    const bool several = angles_of(in, (int)kind)->form != ANGLES_ONE;
+    static const struct number_home home = {.get = get_largest, .set = set_largest};
+    const struct angles *before = angles_of(in, (int)kind, false);
+    const bool several = before->form != ANGLES_ONE;
     const bool lags = kind == ANGLE_LAG && several; // each joint's own lag may be a few turns
-    const double reach = lags ? 1 : reach_of(in, kind, get_largest(in, (int)kind));
     struct number_row number = rows[kind];
-    number.unit = unit_of(in, (int)kind);
-    number.minimum *= reach;
-    number.maximum = lags ? 720 : reach * number.maximum;
-    if (several) number.fallback = NAN;
+    double *reach = &in->angle_reach[kind]; // extends the slider's ends to include its angle; constant during a drag
+    if (!lags && (*reach < 1 || in->ui.held != ui_id(&in->ui, number.ui.name))) {
+        *reach = 1;
+        while (fabs(angles_largest(before)) > *reach * number.ui.maximum && *reach < MOST_REACH) *reach *= 2;
+    }
+    number.ui.unit = unit_of(in, (int)kind);
+    number.ui.minimum *= lags ? 1 : *reach;
+    number.ui.maximum = lags ? 720 : *reach * number.ui.maximum;
+    if (several) number.ui.fallback = NAN;
     if (in->core->view.on[SWITCH_MORE]) r.w = left.x - r.x - 2;
     inspector_number(in, &number, &home, (int)kind, r);
     if (!in->core->view.on[SWITCH_MORE]) return;
 
-    const struct angles *angles = angles_of(in, (int)kind);
+    const struct angles *angles = angles_of(in, (int)kind, false);
     struct angles ramp = {.form = ANGLES_RAMP, .count = 2}, each = {.form = ANGLES_EACH, .count = joints};
     for (int n = 0; n < joints; n++)
         each.value[n] = kind == ANGLE_LAG ? angles_lag(angles, n, joints) : angles_at(angles, n, joints);

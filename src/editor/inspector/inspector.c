@@ -34,12 +34,6 @@ enum {
     SWING = SPLINE << 1,
 };
 
-static bool always(const struct core *core)
-{
-    (void)core;
-    return true;
-}
-
 /// Without a spline the rigs matter more.
 static bool has_no_spline(const struct core *core) { return core_active_spline(core) == NULL; }
 
@@ -57,12 +51,12 @@ static const struct section {
     const char *title;
     const char *(*titled)(struct inspector *in); ///< replaces a fixed title
     unsigned needs;                              ///< shown if one of these is there; 0: always
-    bool (*shown)(const struct core *core);      ///< shown without More; NULL: only on request
+    bool (*shown)(const struct core *core);      ///< shown without More, as the first ones are; NULL: only on request
     bool closed;                                 ///< initially
 } sections[] = {
-    {"section.feel", inspector_feel, .titled = inspector_feel_title, .needs = SPLINE, .shown = always},
-    {"section.knot", inspector_knot, .titled = inspector_knot_title, .needs = SPLINE, .shown = always},
-    {"section.splines", inspector_splines, .title = "Splines", .shown = always},
+    {"section.feel", inspector_feel, .titled = inspector_feel_title, .needs = SPLINE},
+    {"section.knot", inspector_knot, .titled = inspector_knot_title, .needs = SPLINE},
+    {"section.splines", inspector_splines, .title = "Splines"},
     {"section.spline", inspector_spline, .title = "Spline", .needs = SPLINE},
     {"section.rigs", inspector_rigs, .title = "Rigs", .shown = has_no_spline},
     {"section.model", inspector_model, .title = "Imported character", .needs = MODELS, .shown = has_bone},
@@ -78,21 +72,9 @@ static const struct section {
     {"section.history", inspector_history, .title = "History", .closed = true}, // last: its height changes
 };
 
-enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* of sections that More opens */ };
+enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* always shown */ };
 
 _Static_assert(SECTIONS <= (int)INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
-
-/// Whether the scene has the section's subject and the user needs it now.
-static bool is_shown(const struct inspector *in, int i)
-{
-    const struct section *section = &sections[i];
-    const struct core *core = in->core;
-    const struct spline *spline = core_active_spline(core);
-    unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
-    for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
-    if (section->needs && !(section->needs & found)) return false;
-    return core->view.on[SWITCH_MORE] || in->called[i] || (section->shown && section->shown(core));
-}
 
 void inspector_unfold(struct inspector *in, const char *name)
 {
@@ -124,7 +106,14 @@ static bool build_panel(struct inspector *in, struct rect area)
             ui_hint(ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
             if (ui_button(ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
         }
-        if (!is_shown(in, i)) continue;
+        // Shown if the scene has its subject and the user needs it now.
+        const struct core *core = in->core;
+        const struct spline *spline = core_active_spline(core);
+        unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
+        for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
+        if (section->needs && !(section->needs & found)) continue;
+        if (i >= FIRST && !core->view.on[SWITCH_MORE] && !in->called[i] && !(section->shown && section->shown(core)))
+            continue;
         bool closed = *flipped != section->closed;
         const float top = ui->y;
         const bool open =
@@ -403,76 +392,57 @@ void number_put(const struct number_row *row, void *of, double number)
     }
 }
 
-static double get_number(const struct inspector *in, const struct number_row *row, const struct number_home *home,
-                         int which)
-{
-    if (home->rig) return number_at(row, in->core->document->rigs[home->rig(in)]);
-    return home->of ? number_at(row, home->of(in)) : home->get(in, which);
-}
-
 static bool set_number(struct inspector *in, const struct number_row *row, const struct number_home *home, int which,
                        double number, struct error *error)
 {
     if (home->set) return home->set(in, which, number, error);
-    const int rig = home->rig(in);
-    struct rig changed = *in->core->document->rigs[rig];
+    struct rig changed = *in->core->document->rigs[*home->rig];
     number_put(row, &changed, number);
-    return edit_rig_set(in->core->document, rig, &changed, error);
-}
-
-/// Sets a number in one undo step; a drag repeats that step in each frame.
-static void change_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
-                          int which, enum ui_change change, double value)
-{
-    const bool is_first = change == UI_DRAG && !history_is_open(in->core->history);
-    in->change = change;
-    if (!inspector_step(in, change, row->undo, row->name)) return;
-    if (is_first) in->dragged = get_number(in, row, home, which);
-    if (change != UI_DRAG) {
-        set_number(in, row, home, which, value, &in->core->step.error);
-    } else if (set_number(in, row, home, which, value, NULL)) {
-        in->dragged = value;
-    } else { // stop at the last possible value
-        history_restart(in->core->history);
-        set_number(in, row, home, which, in->dragged, NULL);
-    }
+    return edit_rig_set(in->core->document, *home->rig, &changed, error);
 }
 
 enum ui_change inspector_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
                                 int which, struct rect r)
 {
-    const bool waits = home->settles && ui_is_dragged(&in->ui, row->name);
-    char shown[64];
-    double value = waits ? in->dragged : get_number(in, row, home, which);
-    const double was = home->was && in->core->take.document ? home->was(in, which) : NAN;
-    if (isfinite(was) && in->ui.pass == UI_PASS_DRAW && take_is_shown(in->core)) value = was;
-    struct ui_number number = {.name = row->name,
-                               .label = row->label,
-                               .unit = row->unit,
-                               .hint = row->hint,
-                               .shown = waits         ? shown
-                                        : home->shown ? home->shown(in, which, shown)
-                                                      : NULL,
-                               .minimum = row->minimum,
-                               .maximum = row->maximum,
-                               .was = isfinite(was) ? &was : NULL,
-                               .lowest = row->lowest,
-                               .highest = row->highest,
-                               .fallback = row->fallback,
-                               .step = row->step,
-                               .decimals = row->decimals};
-    if (waits) snprintf(shown, sizeof shown, "%g%s%s", value, row->unit ? " " : "", row->unit ? row->unit : "");
+    struct core *core = in->core;
+    struct ui_number number = row->ui;
+    const void *of = home->rig ? core->document->rigs[*home->rig] : home->of;
+    const bool waits = home->settles && ui_is_dragged(&in->ui, number.name);
+    char text[64] = "";
+    const double was = home->get && core->take.document ? home->get(in, which, true, text) : NAN;
+    double now = was;
+    if (!isfinite(was) || in->ui.pass != UI_PASS_DRAW || !take_is_shown(core)) {
+        text[0] = '\0';
+        now = waits ? in->dragged : of ? number_at(row, of) : home->get(in, which, false, text);
+    }
+    if (waits) snprintf(text, sizeof text, "%g%s%s", now, number.unit ? " " : "", number.unit ? number.unit : "");
+    number.shown = text[0] ? text : NULL;
+    number.was = isfinite(was) ? &was : NULL;
+    double value = now;
     const enum ui_change change = ui_value(&in->ui, r, &number, &value);
     if (change == UI_SET && row->is_whole && value != floor(value)) {
-        snprintf(in->ui.complaint, sizeof in->ui.complaint, "%s: expected a whole number, got %g", row->label, value);
+        snprintf(in->ui.complaint, sizeof in->ui.complaint, "%s: expected a whole number, got %g", number.label,
+                 value);
         return UI_NONE;
     }
-    if (row->undo && !home->settles) {
-        change_number(in, row, home, which, change, value);
-    } else if (opens(in, home->settles ? inspector_changed(change) : change != UI_NONE, row->undo)) {
-        home->set(in, which, value, &in->core->step.error);
+    if (home->settles || !row->undo) {
+        if (opens(in, home->settles ? inspector_changed(change) : change != UI_NONE, row->undo))
+            home->set(in, which, value, &core->step.error);
+        if (change == UI_DRAG) in->dragged = value;
+        return change;
     }
-    if (home->settles && change == UI_DRAG) in->dragged = value;
+
+    // One undo step. A drag repeats it in each frame, and stops at the last possible value.
+    const bool is_first = change == UI_DRAG && !history_is_open(core->history);
+    in->change = change;
+    if (!inspector_step(in, change, row->undo, number.name)) return change;
+    if (is_first) in->dragged = now;
+    if (set_number(in, row, home, which, value, change == UI_DRAG ? NULL : &core->step.error)) {
+        in->dragged = value;
+    } else if (change == UI_DRAG) {
+        history_restart(core->history);
+        set_number(in, row, home, which, in->dragged, NULL);
+    }
     return change;
 }
 
@@ -557,8 +527,6 @@ void inspector_more(struct inspector *in, int count, int most, const char *what)
 
 enum { ROW_RATE, ROW_FIRST, ROW_LAST, ROW_SUBSTEPS, SCENE_ROWS };
 
-static const void *document_of(const struct inspector *in) { return in->core->document; }
-
 /// Rate and range ask before they move knots.
 static bool set_scene(struct inspector *in, int which, double number, struct error *error)
 {
@@ -571,29 +539,31 @@ static bool set_scene(struct inspector *in, int which, double number, struct err
 }
 
 static const struct number_row scene_rows[SCENE_ROWS] = {
-    [ROW_RATE] = {NUMBER_AT(struct document, fps), NAMED("scene.fps", "rate"), .unit = "fps",
-                  .hint = "Frames per second; asks whether to keep frames or seconds", TYPED(0.001, SCENE_MAX_FPS),
-                  .fallback = 24, .step = 1},
-    [ROW_FIRST] = {WHOLE_AT(struct document, first_frame), NAMED("scene.first", "first"),
-                   .hint = "First frame of the scene", TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN,
-                   .step = 1},
-    [ROW_LAST] = {WHOLE_AT(struct document, last_frame), NAMED("scene.last", "last"),
-                  .hint = "Last frame of the scene; in a loop it repeats the first",
-                  TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1},
-    [ROW_SUBSTEPS] = {WHOLE_AT(struct document, substeps), NAMED("scene.substeps", "substeps"),
-                      .hint = "Samples per frame, for motion blur", .undo = "Set substeps",
-                      TYPED(1, SCENE_MAX_SUBSTEPS), .fallback = 1, .step = 1},
+    [ROW_RATE] = {NUMBER_AT(struct document, fps),
+                  .ui = {NAMED("scene.fps", "rate"), .unit = "fps",
+                         .hint = "Frames per second; asks whether to keep frames or seconds",
+                         TYPED(0.001, SCENE_MAX_FPS), .fallback = 24, .step = 1}},
+    [ROW_FIRST] = {WHOLE_AT(struct document, first_frame),
+                   .ui = {NAMED("scene.first", "first"), .hint = "First frame of the scene",
+                          TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1}},
+    [ROW_LAST] = {WHOLE_AT(struct document, last_frame),
+                  .ui = {NAMED("scene.last", "last"),
+                         .hint = "Last frame of the scene; in a loop it repeats the first",
+                         TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1}},
+    [ROW_SUBSTEPS] = {WHOLE_AT(struct document, substeps), .undo = "Set substeps",
+                      .ui = {NAMED("scene.substeps", "substeps"), .hint = "Samples per frame, for motion blur",
+                             TYPED(1, SCENE_MAX_SUBSTEPS), .fallback = 1, .step = 1}},
 };
 
 void inspector_scene(struct inspector *in)
 {
-    static const struct number_home home = {.of = document_of, .set = set_scene, .settles = true};
+    const struct number_home home = {.of = in->core->document, .set = set_scene, .settles = true};
     for (int i = 0; i < SCENE_ROWS; i++) {
         struct number_row row = scene_rows[i];
         const double longest = document_longest(in->core->document);
-        if (i == ROW_RATE && in->core->document->fps != floor(in->core->document->fps)) row.decimals = 3;
-        if (i == ROW_FIRST) row.lowest = fmax(row.lowest, in->core->document->last_frame - longest);
-        if (i == ROW_LAST) row.highest = fmin(row.highest, in->core->document->first_frame + longest);
+        if (i == ROW_RATE && in->core->document->fps != floor(in->core->document->fps)) row.ui.decimals = 3;
+        if (i == ROW_FIRST) row.ui.lowest = fmax(row.ui.lowest, in->core->document->last_frame - longest);
+        if (i == ROW_LAST) row.ui.highest = fmin(row.ui.highest, in->core->document->first_frame + longest);
         inspector_number(in, &row, &home, i, ui_row(&in->ui, UI_ROW));
     }
     const struct rect r = inspector_labelled(in, "solver");
@@ -679,25 +649,26 @@ void inspector_history(struct inspector *in)
 enum { FIELD_FRAME, FIELD_VALUE, FIELD_PHASE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
 
 static const struct number_row knot_rows[FIELDS] = {
-    [FIELD_FRAME] = {NUMBER_AT(struct knot, frame), NAMED("frame", "frame"),
-                     .hint = "Frame of the first selected knot; the others move with it", .undo = "Move knots",
-                     TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1},
-    [FIELD_VALUE] = {NUMBER_AT(struct knot, value), NAMED("value", "value"),
-                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
-                     .undo = "Set values", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
-                     .decimals = 3},
-    [FIELD_PHASE] = {NUMBER_AT(struct knot, phase), NAMED("phase", "phase"),
-                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
-                     .undo = "Set phases", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
-                     .decimals = 3},
-    [FIELD_SLOPE] = {NUMBER_AT(struct knot, slope), NAMED("slope", "slope"), .unit = "/s",
-                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
-                     .undo = "Set slopes", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.05,
-                     .decimals = 2},
-    [FIELD_STIFFNESS] = {NUMBER_AT(struct knot, stiffness), NAMED("stiffness", "stiffness"), .unit = "1/s",
-                         .hint = "How firmly the slopes hold; 1000 is firm", .undo = "Set stiffness",
-                         TYPED(0.001, INSPECTOR_NO_LIMIT), .fallback = KNOT_DEFAULT_STIFFNESS, .step = 10,
-                         .decimals = 1},
+    [FIELD_FRAME] = {NUMBER_AT(struct knot, frame), .undo = "Move knots",
+                     .ui = {NAMED("frame", "frame"),
+                            .hint = "Frame of the first selected knot; the others move with it",
+                            TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1}},
+    [FIELD_VALUE] = {NUMBER_AT(struct knot, value), .undo = "Set values",
+                     .ui = {NAMED("value", "value"),
+                            .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3}},
+    [FIELD_PHASE] = {NUMBER_AT(struct knot, phase), .undo = "Set phases",
+                     .ui = {NAMED("phase", "phase"),
+                            .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3}},
+    [FIELD_SLOPE] = {NUMBER_AT(struct knot, slope), .undo = "Set slopes",
+                     .ui = {NAMED("slope", "slope"), .unit = "/s",
+                            .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.05, .decimals = 2}},
+    [FIELD_STIFFNESS] = {NUMBER_AT(struct knot, stiffness), .undo = "Set stiffness",
+                         .ui = {NAMED("stiffness", "stiffness"), .unit = "1/s",
+                                .hint = "How firmly the slopes hold; 1000 is firm", TYPED(0.001, INSPECTOR_NO_LIMIT),
+                                .fallback = KNOT_DEFAULT_STIFFNESS, .step = 10, .decimals = 1}},
 };
 
 /// The fields for a single selected knot.
@@ -711,10 +682,12 @@ static const struct {
     [FIELD_STIFFNESS] = {"Set stiffness", "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)"},
 };
 
-static double get_knots(const struct inspector *in, int field)
+static double get_knots(const struct inspector *in, int field, bool kept, char text[64])
 {
-    (void)field;
-    return in->knots.first;
+    const struct knot_numbers *knots = &in->knots;
+    if (knots->count > 1 && field == FIELD_FRAME) snprintf(text, 64, "%.6g …", knots->first);
+    if (knots->count > 1 && field != FIELD_FRAME && knots->mixed) snprintf(text, 64, "mixed");
+    return kept ? NAN : knots->first;
 }
 
 /// Sets the number of all selected knots, or moves them along with the first, in an order in which they do not collide. false with an error
@@ -729,23 +702,15 @@ static bool set_knots(struct inspector *in, int field, double value, struct erro
         const struct original *original = &originals->list[by > 0 ? originals->count - 1 - i : i];
         struct knot knot = original->knot;
         const double number = together ? number_at(&knot_rows[field], &knot) + by : value;
-        number_put(&knot_rows[field], &knot, fmax(knot_rows[field].lowest, number));
+        number_put(&knot_rows[field], &knot, fmax(knot_rows[field].ui.lowest, number));
         if (!edit_knot_set(in->core->document, original->spline, &knot, error)) return false;
     }
     return true;
 }
 
-static const char *show_several(const struct inspector *in, int field, char text[64])
-{
-    if (in->knots.count == 1) return NULL;
-    if (field != FIELD_FRAME) return in->knots.mixed ? "mixed" : NULL;
-    snprintf(text, 64, "%.6g …", in->knots.first);
-    return text;
-}
-
 static void build_knots(struct inspector *in, int field, struct rect r)
 {
-    static const struct number_home home = {.get = get_knots, .set = set_knots, .shown = show_several};
+    static const struct number_home home = {.get = get_knots, .set = set_knots};
     struct number_row row = knot_rows[field];
     struct knot_numbers *numbers = &in->knots;
     *numbers = (struct knot_numbers){.first = NAN}; // after the edit of the previous field
@@ -757,29 +722,34 @@ static void build_knots(struct inspector *in, int field, struct rect r)
     if (numbers->count == 0) return;
     if (numbers->count == 1) { // its own hint, limits and decimals
         const double value = numbers->first;
-        row.hint = of_one[field].hint;
+        row.ui.hint = of_one[field].hint;
         row.undo = of_one[field].undo;
         if (field == FIELD_FRAME) {
             const struct spline *spline = core_active_spline(in->core);
-            row.lowest = in->core->document->first_frame;
-            row.highest = document_frame(in->core->document, document_last_knot_sample(in->core->document, spline));
-            row.decimals = value == floor(value) ? 0 : 2;
+            row.ui.lowest = in->core->document->first_frame;
+            row.ui.highest =
+                document_frame(in->core->document, document_last_knot_sample(in->core->document, spline));
+            row.ui.decimals = value == floor(value) ? 0 : 2;
         }
-        if (field == FIELD_SLOPE) row.label = NULL; // its switch has the label
-        if (field == FIELD_STIFFNESS && value < 10) row.decimals = 3;
+        if (field == FIELD_SLOPE) row.ui.label = NULL; // its switch has the label
+        if (field == FIELD_STIFFNESS && value < 10) row.ui.decimals = 3;
     }
     if (inspector_changed(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
 }
 
+/// Whether all selected knots have slopes. Among several, a still one counts as having one.
 static bool all_sloped(const struct inspector *in)
 {
+    const bool several = selected_count(in->core) > 1;
     bool sloped = true;
-    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
-        sloped &= knot_at(in->core->document, at)->has_slope || knot_at(in->core->document, at)->still;
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);) {
+        const struct knot *knot = knot_at(in->core->document, at);
+        sloped &= knot->has_slope || (several && knot->still);
+    }
     return sloped;
 }
 
-/// What all selected knots hold, or -1. A still pose counts as a pose.
+/// What all selected knots hold, or -1; and whether one is still.
 static int all_hold(const struct inspector *in, bool *any_still)
 {
     int all = -1;
@@ -816,60 +786,35 @@ static void build_holds(struct inspector *in)
     }
 }
 
-/// A number's row, or a note that there is none.
-static void build_or_idle(struct inspector *in, int field, bool there)
+/// The row of a field, or why there is no number. Rows before it may have edited the knots.
+static void build_field(struct inspector *in, int field, bool one)
 {
-    if (there) {
-        build_knots(in, field, ui_row(&in->ui, UI_ROW));
-    } else {
-        inspector_idle(in, knot_rows[field].label, "–");
-    }
-}
-
-/// In the place of a still knot's value.
-static void build_at_rest(struct inspector *in)
-{
-    ui_label(&in->ui, ui_row(&in->ui, UI_ROW), "Comes to rest at the equilibrium", theme()->text_dim);
-}
-
-static void build_several(struct inspector *in)
-{
-    const bool sloped = all_sloped(in);
-    bool any_still;
+    struct ui *ui = &in->ui;
+    bool any_still, sloped = all_sloped(in);
     const int holds = all_hold(in, &any_still);
-    for (int i = 0; i < FIELDS; i++) {
-        if (i == FIELD_PHASE) build_holds(in);
-        if (i >= FIELD_SLOPE && !sloped) {
-            inspector_idle(in, knot_rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
-        } else if (i == FIELD_PHASE && holds != HOLDS_POSE) {
-            inspector_idle(in, knot_rows[i].label, "not all hold one");
-        } else if (i == FIELD_VALUE && holds == HOLDS_STILL) {
-            build_at_rest(in);
-        } else if (i == FIELD_VALUE && any_still) {
-            inspector_idle(in, knot_rows[i].label, "not all have one");
+    const char *idle = NULL;
+    if (field == FIELD_VALUE && any_still) idle = "not all have one";
+    if (field == FIELD_PHASE && holds != HOLDS_POSE) idle = one ? "–" : "not all hold one";
+    if (field == FIELD_SLOPE && (one ? any_still : !sloped)) idle = one ? "–" : "not all have one";
+    if (field == FIELD_STIFFNESS && !sloped) idle = "–";
+    if (field == FIELD_VALUE && holds == HOLDS_STILL) {
+        ui_label(ui, ui_row(ui, UI_ROW), "Comes to rest at the equilibrium", theme()->text_dim);
+    } else if (idle) {
+        inspector_idle(in, knot_rows[field].ui.label, idle);
+    } else if (field != FIELD_SLOPE || !one) {
+        build_knots(in, field, ui_row(ui, UI_ROW));
+    } else {
+        static const struct row slope = {NAMED("has_slope", NULL),
+                                         .hint = "Give the knot a slope (T); D and E turn it"};
+        const struct rect r = inspector_labelled(in, "slope"), beside = {r.x + 36, r.y, r.w - 36, r.h};
+        if (inspector_toggle(in, r, &slope, &sloped)) {
+            slopes_set(in->core, SLOPES_TOGGLE);
+        } else if (sloped) {
+            build_knots(in, FIELD_SLOPE, beside);
         } else {
-            build_knots(in, i, ui_row(&in->ui, UI_ROW));
+            ui_label(ui, beside, "free", theme()->text_dim);
         }
     }
-}
-
-static bool has_slope(const struct inspector *in, unsigned id)
-{
-    const struct spline *spline = core_active_spline(in->core);
-    return spline->knots[spline_find_id(spline, id)].has_slope;
-}
-
-static void build_slopes(struct inspector *in, bool sloped)
-{
-    static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
-    const struct row rows[] = {
-        {NAMED("slope.flat", "Flat"), .hint = "Make the slopes flat (Shift+T)"},
-        {NAMED("slope.smooth", "Smooth"), .hint = "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
-        {.name = "slope.switch",
-         .label = sloped ? "Remove" : "Add",
-         .hint = sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)"}};
-    const int pressed = inspector_buttons(in, rows, 3);
-    if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 
 const char *inspector_knot_title(struct inspector *in)
@@ -889,10 +834,26 @@ void inspector_knot(struct inspector *in)
     struct knot_place only = SELECTED_START;
     const bool one = count == 1 && selected_next(in->core, &only) && only.spline == in->core->focus.active;
     const float end = ui->y + (FIELDS + 2) * UI_ROW;
-    if (count > 1) {
-        build_several(in);
-        build_slopes(in, all_sloped(in));
-    } else if (!one) { // the spline's knots, and buttons that work without pointing
+    if (count > 1 || one) {
+        static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
+        for (int field = 0; field < FIELDS; field++) {
+            if (field == FIELD_PHASE) build_holds(in);
+            build_field(in, field, one);
+        }
+        const bool sloped = all_sloped(in);
+        const struct row rows[] = {
+            {NAMED("slope.flat", "Flat"), .hint = "Make the slopes flat (Shift+T)"},
+            {NAMED("slope.smooth", "Smooth"),
+             .hint = "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
+            {NAMED("slope.switch", sloped ? "Remove" : "Add"),
+             .hint = sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)"}};
+        const int pressed = inspector_buttons(in, rows, 3);
+        if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
+    } else { // the spline's knots, and buttons that work without pointing
+        static const struct row rows[] = {
+            {NAMED("knot.insert", "Insert"), .hint = "Insert a knot on the curve at the playhead (I)"},
+            {NAMED("knot.next", "Next"), .hint = "Go to the next knot after the playhead (Alt+.)"},
+            {NAMED("knot.all", "All"), .hint = "Select all knots of the spline (Ctrl+A)"}};
         const int knots = spline->knot_count;
         char frames[64] = "none", values[64] = "–";
         double range[2];
@@ -905,41 +866,10 @@ void inspector_knot(struct inspector *in)
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
         inspector_idle(in, "knots", frames);
         inspector_idle(in, "values", values);
-        static const struct row rows[] = {
-            {NAMED("knot.insert", "Insert"), .hint = "Insert a knot on the curve at the playhead (I)"},
-            {NAMED("knot.next", "Next"), .hint = "Go to the next knot after the playhead (Alt+.)"},
-            {NAMED("knot.all", "All"), .hint = "Select all knots of the spline (Ctrl+A)"}};
         const int pressed = inspector_buttons(in, rows, 3);
         if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, HOLDS_VALUE);
         if (pressed == 1) core_visit_neighbour(in->core, 1);
         if (pressed == 2) core_select_all(in->core, false);
-    } else {
-        // Rows may edit the document and reorder knots; ids stay valid.
-        const unsigned id = spline->knots[only.knot].id;
-        bool still;
-        build_knots(in, FIELD_FRAME, ui_row(ui, UI_ROW));
-        const bool posed = all_hold(in, &still) == HOLDS_POSE;
-        if (still) {
-            build_at_rest(in);
-        } else {
-            build_knots(in, FIELD_VALUE, ui_row(ui, UI_ROW));
-        }
-        build_holds(in);
-        build_or_idle(in, FIELD_PHASE, posed);
-        struct rect r = inspector_labelled(in, "slope");
-        bool sloped = has_slope(in, id);
-        if (!still) ui_hint(ui, r, "Give the knot a slope (T); D and E turn it");
-        if (still) {
-            ui_label(ui, r, "–", theme()->text_dim);
-        } else if (ui_toggle(ui, r, "has_slope", &sloped)) {
-            slopes_set(in->core, SLOPES_TOGGLE); // the only selected knot
-        } else {
-            r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
-            if (sloped) build_knots(in, FIELD_SLOPE, r);
-            if (!sloped) ui_label(ui, r, "free", theme()->text_dim);
-        }
-        build_or_idle(in, FIELD_STIFFNESS, has_slope(in, id));
-        build_slopes(in, has_slope(in, id));
     }
     ui->y = end;
 }
@@ -951,26 +881,21 @@ static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHAR
 enum { ROW_FRAME, ROW_POINT, PIN_ROWS = ROW_POINT + 4 };
 
 static const struct number_row pin_rows[PIN_ROWS] = {
-    {NUMBER_AT(struct pin, frame), NAMED("pin.frame", "frame"), .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)",
-     .undo = "Move pin in time", .fallback = NAN, .step = 1},
-    {WHOLE_AT(struct pin, point), .name = "pin.point", .hint = "The pinned point", .undo = "Pin another point",
-     .fallback = NAN, .step = 1},
-    {NUMBER_AT(struct pin, to[0]), NAMED("pin.x", "x"), .unit = "m",
-     .hint = "Target of the point: across; 0 is the middle", .undo = "Move pin",
-     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
-    {NUMBER_AT(struct pin, to[1]), NAMED("pin.y", "y"), .unit = "m", .hint = "Target of the point: height",
-     .undo = "Move pin", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005,
-     .decimals = 3},
-    {NUMBER_AT(struct pin, to[2]), NAMED("pin.z", "z"), .unit = "m", .hint = "Target of the point: depth",
-     .undo = "Move pin", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005,
-     .decimals = 3},
+    {NUMBER_AT(struct pin, frame), .undo = "Move pin in time",
+     .ui = {NAMED("pin.frame", "frame"), .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)", .fallback = NAN,
+            .step = 1}},
+    {WHOLE_AT(struct pin, point), .undo = "Pin another point",
+     .ui = {.name = "pin.point", .hint = "The pinned point", .fallback = NAN, .step = 1}},
+    {NUMBER_AT(struct pin, to[0]), .undo = "Move pin",
+     .ui = {NAMED("pin.x", "x"), .unit = "m", .hint = "Target of the point: across; 0 is the middle",
+            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3}},
+    {NUMBER_AT(struct pin, to[1]), .undo = "Move pin",
+     .ui = {NAMED("pin.y", "y"), .unit = "m", .hint = "Target of the point: height",
+            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3}},
+    {NUMBER_AT(struct pin, to[2]), .undo = "Move pin",
+     .ui = {NAMED("pin.z", "z"), .unit = "m", .hint = "Target of the point: depth",
+            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3}},
 };
-
-static const void *pin_of(const struct inspector *in)
-{
-    int rig;
-    return pins_selected(in->core, &rig);
-}
 
 static bool set_pin(struct inspector *in, int which, double number, struct error *error)
 {
@@ -982,7 +907,6 @@ static bool set_pin(struct inspector *in, int which, double number, struct error
 
 void inspector_pins(struct inspector *in)
 {
-    static const struct number_home home = {.of = pin_of, .set = set_pin};
     struct ui *ui = &in->ui;
     struct core *core = in->core;
     const int count = pins_count(core->document);
@@ -1018,8 +942,7 @@ void inspector_pins(struct inspector *in)
         ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
         ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
         if (pressed) pins_visit(core, pin);
-        const struct row remover = {
-            .name = remove, .icon = UI_ICON_DELETE, .hint = "Remove this pin", .undo = "Delete pin"};
+        const struct row remover = {ICON(remove, UI_ICON_DELETE), .hint = "Remove this pin", .undo = "Delete pin"};
         removed = inspector_icon(in, button, &remover) &&
                   edit_pin_remove(core->document, place.rig, pin->id, &core->step.error);
     }
@@ -1031,15 +954,16 @@ void inspector_pins(struct inspector *in)
         const struct rig *pinned = core->document->rigs[owner];
         struct number_row number = pin_rows[field];
         if (field == ROW_FRAME) {
-            number.lowest = core->document->first_frame;
-            number.highest = document_frame(core->document, pins_last_sample(core->document, pinned));
+            number.ui.lowest = core->document->first_frame;
+            number.ui.highest = document_frame(core->document, pins_last_sample(core->document, pinned));
         } else if (field == ROW_POINT) {
             const struct figure *figure = models_figure(core->models, document_rig_number(core->document, owner));
-            number.label = word_of(pinned);
-            number.highest = pinned->kind != RIG_CHARACTER ? bones_joints(core, owner) - 1
-                             : figure                      ? figure->character.vertex_count - 1
-                                                           : 0;
+            number.ui.label = word_of(pinned);
+            number.ui.highest = pinned->kind != RIG_CHARACTER ? bones_joints(core, owner) - 1
+                                : figure                      ? figure->character.vertex_count - 1
+                                                              : 0;
         }
+        const struct number_home home = {.of = pins_selected(core, &owner), .set = set_pin};
         const enum ui_change change = inspector_number(in, &number, &home, field, ui_row(ui, UI_ROW));
         if (inspector_changed(change)) pins_tell(core, owner);
     }

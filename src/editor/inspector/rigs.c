@@ -167,70 +167,44 @@ void inspector_rigs(struct inspector *in)
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
-struct choice {
-    enum added what;
-    int rig; ///< for ADD_COPY
-};
-
-struct menu {
-    struct choice choices[MAX_ADDED];
-    struct ui_item items[MAX_ADDED];
-    char names[MAX_COPIES][24], labels[MAX_COPIES][ADDED_LABEL];
-    int count;
-};
-
-static void add_item(struct menu *menu, struct choice choice, const char *name, const char *label)
-{
-    menu->choices[menu->count] = choice;
-    menu->items[menu->count++] = (struct ui_item){name, label, 0};
-}
-
-static void carry_out(struct inspector *in, struct choice choice)
+static void carry_out(struct inspector *in, enum added what, int rig)
 {
     const int before = in->core->document->rig_count;
-    switch (choice.what) {
-    case ADD_TAIL:
-        rigs_add_tail(in->core);
-        break;
-    case ADD_FILE:
-        in->core->question.adds = true;
-        break;
-    case ADD_COPY:
-        rigs_copy(in->core, choice.rig);
-        break;
-    case ADD_CHAIN:
-        bones_make_chain(in->core, false);
-        break;
-    case ADD_SPLINE:
-        spline_list_change(in->core, LIST_ADD);
-        break;
-    }
+    if (what == ADD_TAIL) rigs_add_tail(in->core);
+    if (what == ADD_FILE) in->core->question.adds = true;
+    if (what == ADD_COPY) rigs_copy(in->core, rig);
+    if (what == ADD_CHAIN) bones_make_chain(in->core, false);
+    if (what == ADD_SPLINE) spline_list_change(in->core, LIST_ADD);
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
-void inspector_add(struct inspector *in, int what) { carry_out(in, (struct choice){(enum added)what, in->selected}); }
+void inspector_add(struct inspector *in, int what) { carry_out(in, (enum added)what, in->selected); }
 
 static void choose_added(struct inspector *in, const struct dropdown *list)
 {
     const struct document *document = in->core->document;
-    struct menu menu = {.count = 0};
-    int copies = 0;
-    add_item(&menu, (struct choice){ADD_TAIL, 0}, "tail", "Tail");
-    add_item(&menu, (struct choice){ADD_FILE, 0}, "file", "Character or model from a file …");
-    for (int r = 0; r < document->rig_count && copies < MAX_COPIES; r++) {
-        const struct rig *rig = document->rigs[r];
-        if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
-        snprintf(menu.names[copies], sizeof menu.names[0], "copy.%d", r);
-        snprintf(menu.labels[copies], ADDED_LABEL, "One more %.*s", name_fit(path_name(rig_title(rig)), 80),
-                 path_name(rig_title(rig)));
-        add_item(&menu, (struct choice){ADD_COPY, r}, menu.names[copies], menu.labels[copies]);
+    struct ui_item items[MAX_ADDED] = {{"tail", "Tail", 0}, {"file", "Character or model from a file …", 0}};
+    enum added what[MAX_ADDED] = {ADD_TAIL, ADD_FILE};
+    char names[MAX_COPIES][24], labels[MAX_COPIES][ADDED_LABEL];
+    int rigs[MAX_ADDED] = {0}, count = 2;
+    for (int r = 0, copies = 0; r < document->rig_count && copies < MAX_COPIES; r++) {
+        const char *title = path_name(rig_title(document->rigs[r]));
+        if (document->rigs[r]->kind != RIG_CHARACTER && document->rigs[r]->kind != RIG_MODEL) continue;
+        snprintf(names[copies], sizeof names[0], "copy.%d", r);
+        snprintf(labels[copies], ADDED_LABEL, "One more %.*s", name_fit(title, 80), title);
+        items[count] = (struct ui_item){names[copies], labels[copies], 0};
+        what[count] = ADD_COPY;
+        rigs[count++] = r;
         copies++;
     }
-    if (document_find_rig(document, RIG_MODEL, 0) >= 0)
-        add_item(&menu, (struct choice){ADD_CHAIN, 0}, "chain", "Chain from the selected bone (J)");
-    add_item(&menu, (struct choice){ADD_SPLINE, 0}, "spline", "Spline");
-    const int picked = inspector_list(in, list, menu.items, menu.count, -1);
-    if (picked >= 0) carry_out(in, menu.choices[picked]);
+    if (document_find_rig(document, RIG_MODEL, 0) >= 0) {
+        items[count] = (struct ui_item){"chain", "Chain from the selected bone (J)", 0};
+        what[count++] = ADD_CHAIN;
+    }
+    items[count] = (struct ui_item){"spline", "Spline", 0};
+    what[count++] = ADD_SPLINE;
+    const int picked = inspector_list(in, list, items, count, -1);
+    if (picked >= 0) carry_out(in, what[picked], rigs[picked]);
 }
 
 const struct dropdown inspector_add_list = {.name = "add", .build = choose_added};
@@ -267,28 +241,28 @@ static const struct {
 enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
 
 static const struct number_row tail_rows[] = {
-    [ROW_X] = {NUMBER_AT(struct rig, tail.position[0].value), NAMED("position.x", "x"), .unit = "m",
-               .hint = "Position of the body along x", .undo = "Move body", TYPED(-1e6, 1e6), .step = 0.01,
-               .decimals = 3},
-    {NUMBER_AT(struct rig, tail.position[1].value), NAMED("position.y", "y"), .unit = "m",
-     .hint = "Position of the body along y", .undo = "Move body", TYPED(-1e6, 1e6), .fallback = 0.26, .step = 0.01,
-     .decimals = 3},
-    {NUMBER_AT(struct rig, tail.position[2].value), NAMED("position.z", "z"), .unit = "m",
-     .hint = "Position of the body along z", .undo = "Move body", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    [ROW_JOINTS] = {WHOLE_AT(struct rig, tail.joints), NAMED("joints", "joints"),
-                    .hint = "More joints bend more smoothly; shape and swing stay the same", .undo = "Set joints",
-                    BAR(1, 64), TYPED(1, TAIL_MAX_JOINTS), .fallback = TAIL_DEFAULT_JOINTS, .step = 1},
-    [ROW_LENGTH] = {NUMBER_AT(struct rig, tail.length), NAMED("length", "length"), .unit = "m",
-                    .hint = "Length of the tail; the body scales with it", .undo = "Set length", BAR(0.2, 4),
-                    TYPED(1e-3, 1e6), .fallback = TAIL_DEFAULT_LENGTH, .step = 0.05, .decimals = 2},
-    [ROW_TURN] = {NUMBER_AT(struct rig, chain.turn), NAMED("chain.turn", "turn"), .unit = "°",
-                  .hint = "Turns the axes of side and up about the chain's own direction",
-                  .undo = "Turn chain's axes", BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
+    [ROW_X] = {NUMBER_AT(struct rig, tail.position[0].value), .undo = "Move body",
+               .ui = {NAMED("position.x", "x"), .unit = "m", .hint = "Position of the body along x", TYPED(-1e6, 1e6),
+                      .step = 0.01, .decimals = 3}},
+    {NUMBER_AT(struct rig, tail.position[1].value), .undo = "Move body",
+     .ui = {NAMED("position.y", "y"), .unit = "m", .hint = "Position of the body along y", TYPED(-1e6, 1e6),
+            .fallback = 0.26, .step = 0.01, .decimals = 3}},
+    {NUMBER_AT(struct rig, tail.position[2].value), .undo = "Move body",
+     .ui = {NAMED("position.z", "z"), .unit = "m", .hint = "Position of the body along z", TYPED(-1e6, 1e6),
+            .step = 0.01, .decimals = 3}},
+    [ROW_JOINTS] = {WHOLE_AT(struct rig, tail.joints), .undo = "Set joints",
+                    .ui = {NAMED("joints", "joints"),
+                           .hint = "More joints bend more smoothly; shape and swing stay the same", BAR(1, 64),
+                           TYPED(1, TAIL_MAX_JOINTS), .fallback = TAIL_DEFAULT_JOINTS, .step = 1}},
+    [ROW_LENGTH] = {NUMBER_AT(struct rig, tail.length), .undo = "Set length",
+                    .ui = {NAMED("length", "length"), .unit = "m",
+                           .hint = "Length of the tail; the body scales with it", BAR(0.2, 4), TYPED(1e-3, 1e6),
+                           .fallback = TAIL_DEFAULT_LENGTH, .step = 0.05, .decimals = 2}},
+    [ROW_TURN] = {NUMBER_AT(struct rig, chain.turn), .undo = "Turn chain's axes",
+                  .ui = {NAMED("chain.turn", "turn"), .unit = "°",
+                         .hint = "Turns the axes of side and up about the chain's own direction", BAR(-180, 180),
+                         TYPED(-36000, 36000), .step = 1}},
 };
-
-static int shown_rig(const struct inspector *in) { return in->rig; }
-
-static const struct number_home of_shown = {.rig = shown_rig};
 
 /// Lets the body follow a spline, or stop.
 static void follow(struct inspector *in, int k, struct param param)
@@ -323,25 +297,18 @@ static void build_coordinate(struct inspector *in, const struct tail *tail, int 
     if (follows) {
         inspector_spline_field(in, &place_list, inspector_label(in, r, coordinate_name(k)), k, track);
     } else {
-        inspector_number(in, &tail_rows[ROW_X + k], &of_shown, k, r);
+        inspector_number(in, &tail_rows[ROW_X + k], &(struct number_home){.rig = &in->rig}, k, r);
         if (in->core->document->spline_count == 0) return;
     }
-    const struct row button = {.name = name,
-                               .hint = follows ? "Stop following; stay at the current position"
-                                               : "Follow a spline (in metres)",
-                               .icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW,
-                               .undo = follows ? "Stop following" : NULL};
+    const struct row button = {
+        ICON(name, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW), .undo = follows ? "Stop following" : NULL,
+        .hint = follows ? "Stop following; stay at the current position" : "Follow a spline (in metres)"};
     if (inspector_icon(in, icon, &button)) {
         const wiggly_value now = evaluation_at(in->core->evaluation, track, in->core->view.playback.position);
         if (follows) follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
         if (!follows) ui_popup_open(&in->ui, place_list.name, k, field);
     }
     inspector_offer(in, &place_list);
-}
-
-static struct channel_place place_of(const struct inspector *in)
-{
-    return (struct channel_place){in->rig, in->channel};
 }
 
 /// The shown channel, or NULL.
@@ -361,19 +328,19 @@ static void choose_channel(struct inspector *in, int channel)
     in->channel = channel; // two channels may share a spline
 }
 
-static bool put_channel(struct inspector *in, const struct channel *channel)
-{
-    return edit_channel(in->core->document, place_of(in), channel, &in->core->step.error);
-}
+enum { CHANNEL_AXIS, CHANNEL_SPLINE, CHANNEL_PART };
 
-/// A gain still at its default becomes the new axis's default.
-static void set_axis(struct inspector *in, enum axis axis)
+/// Edits one of these of the shown channel. A gain still at its axis's default becomes the new axis's default.
+static bool set_channel(struct inspector *in, int which, int number)
 {
     struct channel changed = *chosen_channel(in);
     const bool untouched = changed.gain.form == ANGLES_ONE && changed.gain.value[0] == axis_gain(changed.axis);
-    changed.axis = axis;
-    if (untouched) changed.gain.value[0] = axis_gain(axis);
-    put_channel(in, &changed);
+    if (which == CHANNEL_AXIS) changed.axis = (enum axis)number;
+    if (which == CHANNEL_SPLINE) changed.spline = number;
+    if (which == CHANNEL_PART) changed.of = (enum channel_part)number;
+    if (untouched) changed.gain.value[0] = axis_gain(changed.axis);
+    const struct channel_place place = {in->rig, in->channel};
+    return edit_channel(in->core->document, place, &changed, &in->core->step.error);
 }
 
 static void choose_axis(struct inspector *in, const struct dropdown *list)
@@ -386,7 +353,7 @@ static void choose_axis(struct inspector *in, const struct dropdown *list)
         if (tail_axes[a].axis == chosen_channel(in)->axis) row = a;
     }
     const int picked = inspector_list(in, list, items, COUNT, row);
-    if (picked >= 0) set_axis(in, tail_axes[picked].axis);
+    if (picked >= 0) set_channel(in, CHANNEL_AXIS, (int)tail_axes[picked].axis);
 }
 
 static const struct dropdown axis_list = {NAMED("axis", "moves"), .hint = "What this channel moves",
@@ -394,9 +361,8 @@ static const struct dropdown axis_list = {NAMED("axis", "moves"), .hint = "What 
 
 static void choose_feed(struct inspector *in, const struct dropdown *list)
 {
-    struct channel changed = *chosen_channel(in);
-    changed.spline = inspector_spline_list(in, list, changed.spline);
-    if (changed.spline >= 0 && put_channel(in, &changed)) choose_channel(in, in->channel);
+    const int spline = inspector_spline_list(in, list, chosen_channel(in)->spline);
+    if (spline >= 0 && set_channel(in, CHANNEL_SPLINE, spline)) choose_channel(in, in->channel);
 }
 
 static const struct dropdown feed_list = {NAMED("feed", "spline"), .hint = "The spline that drives this channel",
@@ -467,7 +433,7 @@ static void build_channel(struct inspector *in)
     const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
     if (pressed == 0 && edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error))
         in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
-    if (pressed == 1) edit_channel_remove(in->core->document, place_of(in), error);
+    if (pressed == 1) edit_channel_remove(in->core->document, (struct channel_place){rig, in->channel}, error);
 
     const struct channel *channel = chosen_channel(in);
     if (!channel) return;
@@ -476,13 +442,9 @@ static void build_channel(struct inspector *in)
     if (inspector_shown(in)->kind == RIG_TAIL) {
         inspector_dropdown(in, &axis_list, ui_row(&in->ui, UI_ROW), in->channel, axis_label(channel->axis), 0);
     } else if (inspector_choice(in, &moves, &axis)) {
-        set_axis(in, (enum axis)axis);
+        set_channel(in, CHANNEL_AXIS, axis);
     }
-    if (inspector_choice(in, &driven, &part)) {
-        struct channel changed = *channel;
-        changed.of = (enum channel_part)part;
-        put_channel(in, &changed);
-    }
+    if (inspector_choice(in, &driven, &part)) set_channel(in, CHANNEL_PART, part);
 }
 
 void inspector_mirror(struct inspector *in, int unused)
@@ -495,7 +457,7 @@ void inspector_mirror(struct inspector *in, int unused)
 /// These rows may change channels and rigs, so each looks up the shown rig again.
 void inspector_tail(struct inspector *in)
 {
-    static const struct number_home joints = {.rig = shown_rig, .set = set_joints};
+    const struct number_home home = {.rig = &in->rig}, joints = {.rig = &in->rig, .set = set_joints};
     struct ui *ui = &in->ui;
     inspector_find_rig(in); // a row may have removed one
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
@@ -532,13 +494,13 @@ void inspector_tail(struct inspector *in)
     }
     if (is_tail) {
         inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);
-        inspector_numbers(in, &tail_rows[ROW_LENGTH], 1, &of_shown);
+        inspector_numbers(in, &tail_rows[ROW_LENGTH], 1, &home);
         for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
     } else {
         const struct chain *chain = &inspector_shown(in)->chain;
         inspector_bone_field(in, &from_list, ui_row(ui, UI_ROW), in->rig, chain->from, in->rig);
         inspector_bone_field(in, &to_list, ui_row(ui, UI_ROW), in->rig, chain->to, in->rig);
-        inspector_numbers(in, &tail_rows[ROW_TURN], 1, &of_shown);
+        inspector_numbers(in, &tail_rows[ROW_TURN], 1, &home);
 
         struct rig changed = *inspector_shown(in);
         static const struct row mirror = {NAMED("chain.mirror", "mirror"),
@@ -582,32 +544,8 @@ static void choose_drive(struct inspector *in, int drive)
     in->core->focus.characters.drive = drive; // two channels may share a spline
 }
 
-static void build_drives(struct inspector *in, const struct character_rig *rig)
-{
-    struct ui *ui = &in->ui;
-    for (int k = 0; k < rig->drive_count; k++) {
-        const struct drive *drive = &rig->drives[k];
-        char name[32], remove[32], text[160];
-        struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
-        snprintf(name, sizeof name, "drive.%d", k);
-        snprintf(remove, sizeof remove, "drive.%d.remove", k);
-        snprintf(text, sizeof text, "%.*s, driven by %.*s", name_fit(drive->name, 60), drive->name,
-                 name_fit(in->core->document->splines[drive->spline]->name, 60),
-                 in->core->document->splines[drive->spline]->name);
-        r.w -= r.h + 4;
-        ui_hint(ui, r, "A channel of this character, and the spline that drives it");
-        const uint32_t color = spline_list_color(in->core->document, drive->spline);
-        if (ui_list_row(ui, r, name, text, color, k == in->core->focus.characters.drive)) choose_drive(in, k);
-        const struct row remover = {
-            .name = remove, .icon = UI_ICON_DELETE, .hint = "Remove this channel", .undo = "Remove channel"};
-        if (!inspector_icon(in, button, &remover)) continue;
-        edit_drive_remove(in->core->document, characters_rig(in->core), k, &in->core->step.error);
-        return;
-    }
-}
-
 /// The coordinate the active spline drives, if that is the selected one.
-static const void *felt_drive(const struct inspector *in)
+static const struct drive *felt_drive(const struct inspector *in)
 {
     const struct character_view *view = &in->core->focus.characters;
     const struct character_rig *rig = document_character(in->core->document, view->character);
@@ -616,21 +554,22 @@ static const void *felt_drive(const struct inspector *in)
 }
 
 static const struct number_row drive_rows[] = {
-    {NUMBER_AT(struct drive, lag), NAMED("drive.lag", "lag"), .unit = "°",
-     .hint = "How far it lags behind the spline; 360 is a full swing", .undo = "Set lag", BAR(-180, 180),
-     TYPED(-36000, 36000), .step = 1, .decimals = 1},
-    {NUMBER_AT(struct drive, amplitude), NAMED("amplitude", "amplitude"),
-     .hint = "How far it swings when the spline is 1", .undo = "Set amplitude", BAR(-2, 2),
-     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = DRIVE_DEFAULT_AMPLITUDE, .step = 0.05,
-     .decimals = 2},
+    {NUMBER_AT(struct drive, lag), .undo = "Set lag",
+     .ui = {NAMED("drive.lag", "lag"), .unit = "°", .hint = "How far it lags behind the spline; 360 is a full swing",
+            BAR(-180, 180), TYPED(-36000, 36000), .step = 1, .decimals = 1}},
+    {NUMBER_AT(struct drive, amplitude), .undo = "Set amplitude",
+     .ui = {NAMED("amplitude", "amplitude"), .hint = "How far it swings when the spline is 1", BAR(-2, 2),
+            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = DRIVE_DEFAULT_AMPLITUDE, .step = 0.05,
+            .decimals = 2}},
 };
 
-static double was_drive(const struct inspector *in, int which)
+static double get_drive(const struct inspector *in, int which, bool kept, char text[64])
 {
-    const struct rig *kept = take_rig(in->core, characters_rig(in->core));
-    const int drive = in->core->focus.characters.drive;
-    return kept && drive < kept->character.drive_count ? number_at(&drive_rows[which], &kept->character.drives[drive])
-                                                       : NAN;
+    const int owner = characters_rig(in->core), drive = in->core->focus.characters.drive;
+    const struct rig *rig = kept ? take_rig(in->core, owner) : in->core->document->rigs[owner];
+    (void)text;
+    if (!rig || drive >= rig->character.drive_count) return NAN;
+    return number_at(&drive_rows[which], &rig->character.drives[drive]);
 }
 
 /// Edits the selected coordinate's drive.
@@ -659,7 +598,7 @@ static bool set_drive_number(struct inspector *in, int which, double number, str
 
 bool inspector_felt_drive(struct inspector *in)
 {
-    static const struct number_home home = {.of = felt_drive, .set = set_drive_number, .was = was_drive};
+    static const struct number_home home = {.get = get_drive, .set = set_drive_number};
     if (!felt_drive(in)) return false;
     inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
     return true;
@@ -712,37 +651,35 @@ static const struct dropdown add_list = {.name = "drive.add",
                                          .undo = "Add channel",
                                          .build = add_coordinate};
 
-static int shown_character(const struct inspector *in) { return characters_rig(in->core); }
-
 static const struct number_row floor_rows[] = {
-    {NUMBER_AT(struct rig, character.floor), NAMED("floor.height", "height"), .unit = "m",
-     .hint = "No point of the character goes lower", .undo = "Set floor", BAR(-1, 0),
-     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3},
+    {NUMBER_AT(struct rig, character.floor), .undo = "Set floor",
+     .ui = {NAMED("floor.height", "height"), .unit = "m", .hint = "No point of the character goes lower", BAR(-1, 0),
+            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3}},
+};
+
+static const struct number_row brush_rows[] = {
+    {NUMBER_AT(struct brush, radius),
+     .ui = {NAMED("radius", "radius"), BAR(1, 50), .unit = "%",
+            .hint = "Radius, relative to the character's height (Ctrl+wheel on the stage)", TYPED(1, 50),
+            .fallback = 12, .step = 1}},
+    {NUMBER_AT(struct brush, strength),
+     .ui = {NAMED("strength", "strength"), BAR(2, 100), .unit = "%",
+            .hint = "How fast paint flows (Shift+wheel on the stage)", TYPED(2, 100), .fallback = 40, .step = 1}},
 };
 
 /// The brush's numbers are fractions, shown in percent.
-static double *share_of(const struct inspector *in, int which)
+static double get_share(const struct inspector *in, int which, bool kept, char text[64])
 {
-    struct brush *brush = &in->core->focus.brush;
-    return which == 0 ? &brush->radius : &brush->strength;
+    (void)text;
+    return kept ? NAN : 100 * number_at(&brush_rows[which], &in->core->focus.brush);
 }
-
-static double get_share(const struct inspector *in, int which) { return 100 * *share_of(in, which); }
 
 static bool set_share(struct inspector *in, int which, double percent, struct error *error)
 {
     (void)error;
-    *share_of(in, which) = percent / 100;
+    number_put(&brush_rows[which], &in->core->focus.brush, percent / 100);
     return true;
 }
-
-static const struct number_row brush_rows[] = {
-    {BAR(1, 50), NAMED("radius", "radius"), .unit = "%",
-     .hint = "Radius, relative to the character's height (Ctrl+wheel on the stage)", TYPED(1, 50), .fallback = 12,
-     .step = 1},
-    {BAR(2, 100), NAMED("strength", "strength"), .unit = "%",
-     .hint = "How fast paint flows (Shift+wheel on the stage)", TYPED(2, 100), .fallback = 40, .step = 1},
-};
 
 static void build_brush(struct inspector *in)
 {
@@ -775,9 +712,7 @@ static void build_brush(struct inspector *in)
         int index = chosen >= 0 && chosen < modes[i].row.count ? chosen : -1; // none of another kind
         if (inspector_choice(in, &modes[i].row, &index)) brush->mode = (enum brush_mode)((int)modes[i].first + index);
     }
-    if (brush->on) {
-        inspector_numbers(in, brush_rows, sizeof brush_rows / sizeof brush_rows[0], &home);
-    }
+    if (brush->on) inspector_numbers(in, brush_rows, sizeof brush_rows / sizeof brush_rows[0], &home);
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
     if (inspector_button(in, ui_row(&in->ui, UI_ROW), &clean)) characters_clean_paint(in->core, 0);
 }
@@ -792,12 +727,29 @@ void inspector_character(struct inspector *in)
     static const struct row twin = {NAMED("twin", "stiff twin"),
                                     .hint = "Show a second character without phases: all its points move in step",
                                     CHOICES(pairs)};
-    static const struct number_home home = {.rig = shown_character};
     struct character_view *view = &in->core->focus.characters;
     inspector_find_rig(in); // a row may have removed one
     const struct character_rig *rig = document_character(in->core->document, view->character);
     struct ui_item items[MAX_COORDINATES];
-    build_drives(in, rig);
+    bool removed = false;
+    for (int k = 0; !removed && k < rig->drive_count; k++) {
+        const struct drive *drive = &rig->drives[k];
+        const char *spline = in->core->document->splines[drive->spline]->name;
+        char name[32], remove[32], text[200];
+        struct rect r = ui_row(&in->ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
+        snprintf(name, sizeof name, "drive.%d", k);
+        snprintf(remove, sizeof remove, "drive.%d.remove", k);
+        snprintf(text, sizeof text, "%.*s, driven by %.*s", name_fit(drive->name, 60), drive->name,
+                 name_fit(spline, 60), spline);
+        const struct row remover = {ICON(remove, UI_ICON_DELETE), .hint = "Remove this channel",
+                                    .undo = "Remove channel"};
+        const uint32_t color = spline_list_color(in->core->document, drive->spline);
+        r.w -= r.h + 4;
+        ui_hint(&in->ui, r, "A channel of this character, and the spline that drives it");
+        if (ui_list_row(&in->ui, r, name, text, color, k == view->drive)) choose_drive(in, k);
+        removed = inspector_icon(in, button, &remover);
+        if (removed) edit_drive_remove(in->core->document, characters_rig(in->core), k, &in->core->step.error);
+    }
     if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0)
         inspector_dropdown(in, &add_list, ui_row(&in->ui, UI_ROW), 0, "Add a channel", 0);
     ui_space(&in->ui, 4);
@@ -826,7 +778,7 @@ void inspector_character(struct inspector *in)
         if (floor) changed.character.floor = rig->position[1];
         edit_rig_set(in->core->document, owner, &changed, &in->core->step.error);
     } else if (rig->has_floor) {
-        inspector_numbers(in, floor_rows, 1, &home);
+        inspector_numbers(in, floor_rows, 1, &(struct number_home){.rig = &owner});
         const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);
         char text[120];
         if (left && left->depth >= 1e-4) {
@@ -879,17 +831,21 @@ static const struct dropdown clip_list = {NAMED("model.clips", "clip"),
                                           .hint = "The clip of the file that it repeats", .build = choose_clip};
 
 static const struct number_row place[] = {
-    {NUMBER_AT(struct rig, model.position[0]), NAMED("model.x", "x"), .unit = "m", .hint = "Where it stands along x",
-     .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    {NUMBER_AT(struct rig, model.position[1]), NAMED("model.y", "y"), .unit = "m",
-     .hint = "Height of the ground under it", .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01,
-     .decimals = 3},
-    {NUMBER_AT(struct rig, model.position[2]), NAMED("model.z", "z"), .unit = "m", .hint = "Where it stands along z",
-     .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    {NUMBER_AT(struct rig, model.scale), NAMED("model.scale", "scale"), .hint = "Size, relative to the file's",
-     .undo = "Place character", TYPED(1e-9, 1e9), .fallback = 1, .step = 0.01, .decimals = 3},
-    {NUMBER_AT(struct rig, model.turn), NAMED("model.turn", "turn"), .unit = "°", .hint = "About the vertical",
-     .undo = "Place character", BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
+    {NUMBER_AT(struct rig, model.position[0]), .undo = "Place character",
+     .ui = {NAMED("model.x", "x"), .unit = "m", .hint = "Where it stands along x", TYPED(-1e6, 1e6), .step = 0.01,
+            .decimals = 3}},
+    {NUMBER_AT(struct rig, model.position[1]), .undo = "Place character",
+     .ui = {NAMED("model.y", "y"), .unit = "m", .hint = "Height of the ground under it", TYPED(-1e6, 1e6),
+            .step = 0.01, .decimals = 3}},
+    {NUMBER_AT(struct rig, model.position[2]), .undo = "Place character",
+     .ui = {NAMED("model.z", "z"), .unit = "m", .hint = "Where it stands along z", TYPED(-1e6, 1e6), .step = 0.01,
+            .decimals = 3}},
+    {NUMBER_AT(struct rig, model.scale), .undo = "Place character",
+     .ui = {NAMED("model.scale", "scale"), .hint = "Size, relative to the file's", TYPED(1e-9, 1e9), .fallback = 1,
+            .step = 0.01, .decimals = 3}},
+    {NUMBER_AT(struct rig, model.turn), .undo = "Place character",
+     .ui = {NAMED("model.turn", "turn"), .unit = "°", .hint = "About the vertical", BAR(-180, 180),
+            TYPED(-36000, 36000), .step = 1}},
 };
 
 void inspector_model(struct inspector *in)
@@ -902,7 +858,6 @@ void inspector_model(struct inspector *in)
     };
     static const struct row repeats = {NAMED("model.loops", "loops"),
                                        .hint = "The clip begins again after its end; else it plays once"};
-    static const struct number_home home = {.rig = shown_model};
     struct ui *ui = &in->ui;
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->core, model);
@@ -927,7 +882,7 @@ void inspector_model(struct inspector *in)
         if (inspector_toggle(in, ui_row(ui, UI_ROW), &repeats, &loops))
             bones_choose_clip(in->core, model, rig->clip, loops ? REPEAT_LOOP : REPEAT_ONCE);
     }
-    inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
+    inspector_numbers(in, place, sizeof place / sizeof place[0], &(struct number_home){.rig = &model});
     if (!shown || shown->skeleton.count == 0) return;
 
     int owner;

@@ -13,9 +13,6 @@
 #include <stdio.h>
 
 enum { MAX_ROWS = 8, SWATCH = 22, KIND = 56 }; ///< splines listed at once; pixels
-
-static const struct row rename_row = {.name = "rename", .undo = "Rename spline"};
-
 enum { COLOR = 28, WIDTH = THEME_SPLINE_COLORS * COLOR + 20 };
 
 /// The colours of the theme, a typed one, and none.
@@ -63,6 +60,8 @@ static void build_palette(struct inspector *in, const struct dropdown *list)
 
 static const struct dropdown palette = {
     .name = "palette", .hint = "Colour of this spline", .undo = "Set colour", .build = build_palette};
+
+static const struct row rename_row = {.name = "rename", .undo = "Rename spline"};
 
 void inspector_rename(struct inspector *in, int unused)
 {
@@ -164,41 +163,24 @@ void inspector_splines(struct inspector *in)
 }
 
 static const struct preset {
-    struct row button;
+    const char *name, *label, *hint;
     double frequency, damping;
     double wind_up; ///< periods
     double lag;     ///< degrees between the first and last joint
 } presets[] = {
-    {.button = {NAMED("preset.cat", "Cat"), .hint = "A cat's tail: slow, soon at rest, the tip far behind",
-                .undo = "Choose a feel"},
-     .frequency = 0.8,
-     .damping = 0.22,
-     .wind_up = 0.5,
-     .lag = 170},
-    {.button = {NAMED("preset.whip", "Whip"), .hint = "A whip: quick, a wave that runs to the tip",
-                .undo = "Choose a feel"},
-     .frequency = 1.8,
-     .damping = 0.12,
-     .wind_up = 0.35,
-     .lag = 260},
-    {.button = {NAMED("preset.heavy", "Heavy"), .hint = "Something heavy: slow, long in coming, soon at rest",
-                .undo = "Choose a feel"},
-     .frequency = 0.5,
-     .damping = 0.35,
-     .wind_up = 0.7,
-     .lag = 90},
-    {.button = {NAMED("preset.jelly", "Jelly"), .hint = "Jelly: quick, wobbles for long", .undo = "Choose a feel"},
-     .frequency = 3,
-     .damping = 0.06,
-     .wind_up = 0.5,
-     .lag = 60},
-    {.button = {NAMED("preset.antenna", "Antenna"), .hint = "An antenna: very quick, stiff, rings for long",
-                .undo = "Choose a feel"},
-     .frequency = 5,
-     .damping = 0.03,
-     .wind_up = 0.5,
-     .lag = 20},
+    {NAMED("preset.cat", "Cat"), .hint = "A cat's tail: slow, soon at rest, the tip far behind", .frequency = 0.8,
+     .damping = 0.22, .wind_up = 0.5, .lag = 170},
+    {NAMED("preset.whip", "Whip"), .hint = "A whip: quick, a wave that runs to the tip", .frequency = 1.8,
+     .damping = 0.12, .wind_up = 0.35, .lag = 260},
+    {NAMED("preset.heavy", "Heavy"), .hint = "Something heavy: slow, long in coming, soon at rest", .frequency = 0.5,
+     .damping = 0.35, .wind_up = 0.7, .lag = 90},
+    {NAMED("preset.jelly", "Jelly"), .hint = "Jelly: quick, wobbles for long", .frequency = 3, .damping = 0.06,
+     .wind_up = 0.5, .lag = 60},
+    {NAMED("preset.antenna", "Antenna"), .hint = "An antenna: very quick, stiff, rings for long", .frequency = 5,
+     .damping = 0.03, .wind_up = 0.5, .lag = 20},
 };
+
+static const char preset_undo[] = "Choose a feel";
 
 enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARGINS = 8, TEXT = 32 /* two lines */ };
 
@@ -217,30 +199,26 @@ const char *inspector_feel_title(struct inspector *in)
     return in->feel_title;
 }
 
-static bool set_felt(struct inspector *in, enum parameter parameter, double value, bool alike)
-{
-    return core_set_felt(in->core, inspector_limb(in), parameter, value, alike, &in->core->step.error);
-}
-
 static void apply_preset(struct inspector *in, const struct preset *preset)
 {
     const struct spline *spline = core_active_spline(in->core);
+    struct error *error = &in->core->step.error;
+    const int limb = inspector_limb(in);
     bool good = (spline_mode(spline) != WIGGLY_CUBIC ||
                  core_set_parameter(in->core, in->core->focus.active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
-                set_felt(in, PARAMETER_FREQUENCY, preset->frequency, false) &&
-                set_felt(in, PARAMETER_DAMPING, preset->damping, true) &&
-                set_felt(in, PARAMETER_WIND_UP, preset->wind_up, true);
+                core_set_felt(in->core, limb, PARAMETER_FREQUENCY, preset->frequency, false, error) &&
+                core_set_felt(in->core, limb, PARAMETER_DAMPING, preset->damping, true, error) &&
+                core_set_felt(in->core, limb, PARAMETER_WIND_UP, preset->wind_up, true, error);
 
     // The same lag for each joint in the channel that the spline bends, and in the limb's others.
     const bool bends = inspector_felt_channel(in);
-    const int limb = inspector_limb(in), joints = bends ? bones_joints(in->core, in->rig) : 0;
+    const int joints = bends ? bones_joints(in->core, in->rig) : 0;
     const int inputs = bends ? rig_input_count(in->core->document->rigs[in->rig]) : 0;
     const struct angles angles = {.value = {joints > 1 ? core_round(preset->lag / (joints - 1), 0.1) : 0}};
     for (int c = 0; c < inputs && good; c++) {
         const bool others = limb == in->rig && rig_point_input(in->core->document->rigs[limb], c) >= 0;
         const struct channel_place at = {in->rig, c};
-        if (c == in->channel || others)
-            good = edit_angles(in->core->document, at, ANGLE_LAG, &angles, &in->core->step.error);
+        if (c == in->channel || others) good = edit_angles(in->core->document, at, ANGLE_LAG, &angles, error);
     }
     core_edited(in->core, in->core->focus.active);
 }
@@ -248,13 +226,13 @@ static void apply_preset(struct inspector *in, const struct preset *preset)
 void inspector_preset(struct inspector *in, int preset)
 {
     in->alone = false;
-    if (core_step(in->core, presets[preset].button.undo, 0)) apply_preset(in, &presets[preset]);
+    if (core_step(in->core, preset_undo, 0)) apply_preset(in, &presets[preset]);
 }
 
 static float presets_width(int first, int end)
 {
     float width = (float)(end - first - 1) * PRESET_GAP;
-    for (int i = first; i < end; i++) width += ui_text_width(presets[i].button.label);
+    for (int i = first; i < end; i++) width += ui_text_width(presets[i].label);
     return width;
 }
 
@@ -264,37 +242,13 @@ static void build_preset_row(struct inspector *in, struct rect row, int first, i
     const float spare = (row.w - presets_width(first, end)) / (float)(end - first);
     float x = row.x;
     for (int i = first; i < end; i++) {
-        const float right = x + ui_text_width(presets[i].button.label) + spare;
+        const float right = x + ui_text_width(presets[i].label) + spare;
         const struct rect r = {roundf(x), row.y + 1, roundf(right) - roundf(x), row.h - 2};
-        if (inspector_button(in, r, &presets[i].button)) apply_preset(in, &presets[i]);
+        const struct row button = {NAMED(presets[i].name, presets[i].label), .hint = presets[i].hint,
+                                   .undo = preset_undo};
+        if (inspector_button(in, r, &button)) apply_preset(in, &presets[i]);
         x = right + PRESET_GAP;
     }
-}
-
-static bool is_never(enum settle_kind kind) { return kind == SETTLE_NEVER || kind == SETTLE_LATE; }
-
-/// Settling time with another damping; INFINITY: never, or too late.
-static double settles(const struct spline *spline, double damping, double step)
-{
-    struct spline other = *spline;
-    other.parameter[PARAMETER_DAMPING].value = damping;
-    const struct settling settling = settle_alone(&other, step);
-    return settling.kind == SETTLE_ALONE ? settling.seconds : INFINITY;
-}
-
-/// The damping, at most critical, for a settling time. Time falls as damping rises, so bisection works.
-static double damping_for(const struct spline *spline, double seconds, double step)
-{
-    double low = 0, high = 1;
-    for (int i = 0; i < 40; i++) {
-        const double middle = (low + high) / 2;
-        if (settles(spline, middle, step) > seconds) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return high;
 }
 
 /// The active spline as it was before, or NULL.
@@ -304,150 +258,108 @@ static const struct spline *kept_spline(const struct inspector *in)
     return kept >= 0 ? in->core->take.document->splines[kept] : NULL;
 }
 
-/// The active spline as its numbers show it: as before while K is held.
-static const struct spline *seen_spline(const struct inspector *in)
-{
-    const struct spline *kept = take_is_shown(in->core) ? kept_spline(in) : NULL;
-    return kept ? kept : core_active_spline(in->core);
-}
-
-/// A spline's settling time as a number; setting it sets the damping.
-static double seconds_of(const struct inspector *in, const struct spline *spline)
-{
-    const struct settling alone = settle_alone(spline, document_step(in->core->document));
-    return alone.kind == SETTLE_ALONE ? alone.seconds : is_never(alone.kind) ? SETTLE_LIMIT : NAN;
-}
-
-static double get_settle(const struct inspector *in, int which)
-{
-    (void)which;
-    return seconds_of(in, core_active_spline(in->core));
-}
-
-static double was_settle(const struct inspector *in, int which)
-{
-    const struct spline *kept = kept_spline(in);
-    (void)which;
-    return kept ? seconds_of(in, kept) : NAN;
-}
-
-static bool set_settle(struct inspector *in, int which, double seconds, struct error *error)
-{
-    const struct spline *spline = core_active_spline(in->core);
-    const double damping = damping_for(spline, seconds, document_step(in->core->document));
-    const double rounded = round(damping * 1e4) / 1e4;
-    (void)which;
-    return core_set_felt(in->core, inspector_limb(in), PARAMETER_DAMPING, rounded, false, error);
-}
-
-static const char *show_settle(const struct inspector *in, int which, char text[64])
-{
-    const struct spline *spline = seen_spline(in);
-    (void)which, (void)text;
-    return is_never(settle_alone(spline, document_step(in->core->document)).kind) ? "never" : NULL;
-}
-
-static void build_settle(struct inspector *in)
-{
-    static const struct number_home home = {
-        .get = get_settle, .set = set_settle, .shown = show_settle, .was = was_settle};
-    const struct spline *spline = core_active_spline(in->core);
-    const double step = document_step(in->core->document);
-    const enum settle_kind kind = settle_alone(spline, step).kind;
-    if (kind != SETTLE_ALONE && !is_never(kind)) {
-        inspector_idle(in, "settles in", "–");
-        return;
-    }
-    const struct number_row number = {NAMED("settle", "settles in"),
-                                      .unit = "s",
-                                      .hint =
-                                          "Time until 5 % of a swing is left; changes the damping, not the frequency",
-                                      .undo = "Set settle time",
-                                      .lowest = ceil(settles(spline, 1, step) * 100) / 100,
-                                      .highest = SETTLE_LIMIT,
-                                      .fallback = NAN,
-                                      .step = 0.05,
-                                      .decimals = 2};
-    struct rect r = ui_row(&in->ui, UI_ROW);
-    r.w -= UI_ROW + 2; // lines up with the rows above, which have a button there
-    inspector_number(in, &number, &home, 0, r);
-}
-
 /// Frames of a period at the spline's own frequency.
 static double period_of(const struct inspector *in, const struct spline *spline)
 {
     return in->core->document->fps / spline->parameter[PARAMETER_FREQUENCY].value;
 }
 
-static double period_frames(const struct inspector *in) { return period_of(in, core_active_spline(in->core)); }
-
+/// The longest wind-up in frames, which stands for the whole curve.
 static double longest_wind_up(const struct inspector *in)
 {
-    return parameter_rows[PARAMETER_WIND_UP].usual * period_frames(in);
+    return parameter_rows[PARAMETER_WIND_UP].usual * period_of(in, core_active_spline(in->core));
 }
 
-/// The wind-up in frames. The longest stands for the whole curve.
-static double get_wind_up(const struct inspector *in, int which)
-{
-    const double periods = core_active_spline(in->core)->parameter[PARAMETER_WIND_UP].value;
-    (void)which;
-    return periods > 0 ? periods * period_frames(in) : longest_wind_up(in);
-}
+enum { SETTLE = PARAMETER_COUNT }; ///< beside the parameters: the settling time, which sets the damping
 
-static double was_wind_up(const struct inspector *in, int which)
+static double get_felt(const struct inspector *in, int which, bool kept, char text[64])
 {
-    const struct spline *kept = kept_spline(in);
-    (void)which;
-    if (!kept || !spline_uses(kept, PARAMETER_WIND_UP, false)) return NAN;
-    const double periods = kept->parameter[PARAMETER_WIND_UP].value;
-    return periods > 0 ? periods * period_of(in, kept) : longest_wind_up(in);
-}
-
-static bool set_wind_up(struct inspector *in, int which, double frames, struct error *error)
-{
-    const bool whole = frames >= longest_wind_up(in);
-    const double periods = whole ? 0 : round(frames / period_frames(in) * 1e4) / 1e4;
-    (void)which;
-    return core_set_felt(in->core, inspector_limb(in), PARAMETER_WIND_UP, periods, false, error);
-}
-
-static const char *show_wind_up(const struct inspector *in, int which, char text[64])
-{
-    (void)which, (void)text;
-    return seen_spline(in)->parameter[PARAMETER_WIND_UP].value > 0 ? NULL : "whole curve";
-}
-
-static void build_wind_up(struct inspector *in)
-{
-    static const struct number_home home = {
-        .get = get_wind_up, .set = set_wind_up, .shown = show_wind_up, .was = was_wind_up};
-    const struct spline *spline = core_active_spline(in->core);
-    const struct parameter_row *row = &parameter_rows[PARAMETER_WIND_UP];
-    const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
-    if (!spline_uses(spline, PARAMETER_WIND_UP, false) || param_follows(frequency) || frequency->value == 0) {
-        inspector_idle(in, row->name, "–");
-        return;
+    const struct spline *spline = kept ? kept_spline(in) : core_active_spline(in->core);
+    if (!spline) return NAN;
+    if (which == SETTLE) {
+        const struct settling alone = settle_alone(spline, document_step(in->core->document));
+        const bool never = alone.kind == SETTLE_NEVER || alone.kind == SETTLE_LATE;
+        if (never) snprintf(text, 64, "never");
+        return never ? SETTLE_LIMIT : alone.kind == SETTLE_ALONE ? alone.seconds : NAN;
     }
-    const struct number_row number = {.name = row->name,
-                                      .label = row->name,
-                                      .unit = row->unit,
-                                      .hint = row->hint,
-                                      .undo = row->undo,
-                                      .maximum = longest_wind_up(in),
-                                      .lowest = 1,
-                                      .highest = INFINITY,
-                                      .fallback = row->fresh * period_frames(in),
-                                      .step = row->step};
-    struct rect r = ui_row(&in->ui, UI_ROW);
-    if (in->core->view.on[SWITCH_MORE]) r.w -= UI_ROW + 2; // lines up, too
-    inspector_number(in, &number, &home, 0, r);
+    const struct param *param = &spline->parameter[which];
+    if (!spline_uses(spline, (enum parameter)which, false) || param_follows(param)) return NAN;
+    if (which != PARAMETER_WIND_UP) return param->value;
+    if (param->value > 0) return param->value * period_of(in, spline);
+    snprintf(text, 64, "whole curve");
+    return longest_wind_up(in);
+}
+
+/// Settling time of a spline with another damping; INFINITY: never, or too late.
+static double settles(const struct spline *spline, double damping, double step)
+{
+    struct spline other = *spline;
+    other.parameter[PARAMETER_DAMPING].value = damping;
+    const struct settling settling = settle_alone(&other, step);
+    return settling.kind == SETTLE_ALONE ? settling.seconds : INFINITY;
+}
+
+static bool set_felt(struct inspector *in, int which, double number, struct error *error)
+{
+    const struct spline *spline = core_active_spline(in->core);
+    const double step = document_step(in->core->document);
+    enum parameter parameter = (enum parameter)which;
+    if (which == SETTLE) { // at most critical damping; time falls as damping rises, so bisection works
+        double low = 0, high = 1;
+        for (int i = 0; i < 40; i++) {
+            const double middle = (low + high) / 2;
+            const bool late = settles(spline, middle, step) > number;
+            low = late ? middle : low;
+            high = late ? high : middle;
+        }
+        parameter = PARAMETER_DAMPING;
+        number = round(high * 1e4) / 1e4;
+    } else if (which == PARAMETER_WIND_UP) {
+        const bool whole = number >= longest_wind_up(in);
+        number = whole ? 0 : round(number / period_of(in, spline) * 1e4) / 1e4;
+    }
+    return core_set_felt(in->core, inspector_limb(in), parameter, number, false, error);
+}
+
+/// A parameter of the active spline, or its settling time, as a number.
+static void build_number(struct inspector *in, int which, struct rect r)
+{
+    static const struct number_home home = {.get = get_felt, .set = set_felt};
+    static const struct parameter_row settle = {
+        .name = "settle",
+        .unit = "s",
+        .hint = "Time until 5 % of a swing is left; changes the damping, not the frequency",
+        .undo = "Set settle time",
+        .fresh = NAN,
+        .step = 0.05,
+        .decimals = 2};
+    const struct spline *spline = core_active_spline(in->core);
+    const struct parameter_row *row = which == SETTLE ? &settle : &parameter_rows[which];
+    struct number_row number = {.undo = row->undo,
+                                .ui = {NAMED(row->name, row->name), .unit = row->unit, .hint = row->hint,
+                                       .fallback = row->fresh, .step = row->step, .decimals = row->decimals}};
+    if (which == SETTLE) {
+        number.ui.label = "settles in";
+        number.ui.lowest = ceil(settles(spline, 1, document_step(in->core->document)) * 100) / 100;
+        number.ui.highest = SETTLE_LIMIT;
+    } else if (which == PARAMETER_WIND_UP) {
+        number.ui.maximum = longest_wind_up(in);
+        number.ui.lowest = 1;
+        number.ui.highest = INFINITY;
+        number.ui.fallback *= period_of(in, spline);
+    } else {
+        number.ui.maximum = core_slider_end(in->core->document, spline, (enum parameter)which);
+        number.ui.lowest = row->minimum;
+        number.ui.highest = parameter_maximum((enum parameter)which, spline_mode(spline));
+    }
+    inspector_number(in, &number, &home, which, r);
 }
 
 /// The settling in one sentence.
 static void build_sentence(struct inspector *in)
 {
-    const struct spline *spline = seen_spline(in);
-    const bool kept = spline != core_active_spline(in->core);
+    const bool kept = take_is_shown(in->core) && kept_spline(in);
+    const struct spline *spline = kept ? kept_spline(in) : core_active_spline(in->core);
     const struct document *document = kept ? in->core->take.document : in->core->document;
     const struct evaluation *evaluation = kept ? &in->core->take.evaluation : in->core->evaluation;
     const int active = kept ? take_spline(in->core, in->core->focus.active) : in->core->focus.active;
@@ -485,6 +397,14 @@ static void build_sentence(struct inspector *in)
     ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
+/// A row that ends where those do that have a button.
+static struct rect shorter(struct inspector *in)
+{
+    struct rect r = ui_row(&in->ui, UI_ROW);
+    r.w -= UI_ROW + 2;
+    return r;
+}
+
 /// Rows keep their places for every kind of spline.
 void inspector_feel(struct inspector *in)
 {
@@ -504,8 +424,19 @@ void inspector_feel(struct inspector *in)
             inspector_idle(in, parameter_rows[pace[i]].name, "–");
         }
     }
-    if (in->core->view.on[SWITCH_MORE]) build_settle(in);
-    build_wind_up(in);
+    char text[EVALUATION_SENTENCE];
+    if (in->core->view.on[SWITCH_MORE] && isnan(get_felt(in, SETTLE, false, text))) {
+        inspector_idle(in, "settles in", "–");
+    } else if (in->core->view.on[SWITCH_MORE]) {
+        build_number(in, SETTLE, shorter(in));
+    }
+    const struct spline *swings = core_active_spline(in->core);
+    const struct param *frequency = &swings->parameter[PARAMETER_FREQUENCY];
+    if (!spline_uses(swings, PARAMETER_WIND_UP, false) || param_follows(frequency) || frequency->value == 0) {
+        inspector_idle(in, parameter_rows[PARAMETER_WIND_UP].name, "–");
+    } else {
+        build_number(in, PARAMETER_WIND_UP, in->core->view.on[SWITCH_MORE] ? shorter(in) : ui_row(ui, UI_ROW));
+    }
 
     // Lag and gain of the channel or coordinate it drives; below each is room for the highest curve of any spline.
     const bool bends = inspector_felt_channel(in) != NULL, drives = !bends && inspector_felt_drive(in);
@@ -518,7 +449,6 @@ void inspector_feel(struct inspector *in)
     const float top = ui->y;
     const struct spline *spline = core_active_spline(in->core);
     const struct evaluation *evaluation = in->core->evaluation;
-    char text[EVALUATION_SENTENCE];
     if (evaluation && in->core->focus.active < evaluation->count &&
         evaluation_sentence(evaluation, in->core->focus.active, text))
         ui_paragraph(ui, text, theme()->warning);
@@ -539,42 +469,6 @@ void inspector_feel(struct inspector *in)
         NAMED("frequency.find", "Find the frequency"),
         .hint = "Frequency and damping that explain the knots best (Shift+F); again: the runner-up"};
     if (inspector_button(in, r, &find)) core_find_frequency(in->core, 0);
-}
-
-static double get_parameter(const struct inspector *in, int parameter)
-{
-    return core_active_spline(in->core)->parameter[parameter].value;
-}
-
-static double was_parameter(const struct inspector *in, int parameter)
-{
-    const struct spline *kept = kept_spline(in);
-    const bool has = kept && spline_uses(kept, (enum parameter)parameter, false);
-    return has && !param_follows(&kept->parameter[parameter]) ? kept->parameter[parameter].value : NAN;
-}
-
-static bool put_parameter(struct inspector *in, int parameter, double number, struct error *error)
-{
-    return core_set_felt(in->core, inspector_limb(in), (enum parameter)parameter, number, false, error);
-}
-
-static void build_slider(struct inspector *in, enum parameter parameter, struct rect r)
-{
-    const struct spline *spline = core_active_spline(in->core);
-    const struct parameter_row *row = &parameter_rows[parameter];
-    const struct number_row number = {.name = row->name,
-                                      .label = row->name,
-                                      .unit = row->unit,
-                                      .hint = row->hint,
-                                      .undo = row->undo,
-                                      .maximum = core_slider_end(in->core->document, spline, parameter),
-                                      .lowest = row->minimum,
-                                      .highest = parameter_maximum(parameter, spline_mode(spline)),
-                                      .fallback = row->fresh,
-                                      .step = row->step,
-                                      .decimals = row->decimals};
-    static const struct number_home home = {.get = get_parameter, .set = put_parameter, .was = was_parameter};
-    inspector_number(in, &number, &home, (int)parameter, r);
 }
 
 enum { MAX_BONES = 1024 }; ///< in a list
@@ -629,8 +523,8 @@ static const struct dropdown joint_list = {.name = "joint",
 /// Marks splines the active one cannot follow without a cycle; true if any is left.
 static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX_SPLINES])
 {
-    int count = in->core->document->spline_count < INSPECTOR_MAX_SPLINES ? in->core->document->spline_count
-                                                                         : INSPECTOR_MAX_SPLINES;
+    const int all = in->core->document->spline_count;
+    const int count = all < INSPECTOR_MAX_SPLINES ? all : INSPECTOR_MAX_SPLINES;
     bool any = false;
     scene_followers(in->core->document, in->core->focus.active, left_out, count);
     for (int s = 0; s < count; s++) any |= !left_out[s];
@@ -673,21 +567,20 @@ static const struct dropdown track_list = {
     .name = "follow", .hint = "The spline it follows, sample by sample", .build = choose_track};
 
 /// The button at the right of a row: follows a spline from a list, or stops following.
-static void build_track_button(struct inspector *in, enum parameter parameter, struct rect r, struct rect row)
+static void build_track_button(struct inspector *in, enum parameter parameter, struct rect row)
 {
+    const struct rect r = {row.x + row.w + 2, row.y, UI_ROW, UI_ROW};
     const int active = in->core->focus.active;
     const bool follows = param_follows(&in->core->document->splines[active]->parameter[parameter]);
     const bool joints =
         parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->core->document, RIG_MODEL, 0) >= 0;
-    const char *hint = follows  ? "Stop following; keep the value at the playhead"
-                       : joints ? "Follow another spline, or a joint of the character"
-                                : "Follow another spline";
     char name[64];
     snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
-    const struct row button = {.name = name,
-                               .hint = hint,
-                               .icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW,
-                               .undo = follows ? "Stop following" : NULL};
+    const struct row button = {ICON(name, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW),
+                               .undo = follows ? "Stop following" : NULL,
+                               .hint = follows  ? "Stop following; keep the value at the playhead"
+                                       : joints ? "Follow another spline, or a joint of the character"
+                                                : "Follow another spline"};
     const bool pressed = inspector_icon(in, r, &button);
     if (pressed && follows) {
         const struct param number = param_number(spline_list_present(in->core, active, parameter));
@@ -704,26 +597,21 @@ static void build_track_button(struct inspector *in, enum parameter parameter, s
     inspector_offer(in, &track_list);
 }
 
-static bool follow_joint(struct inspector *in, const struct param *param, struct error *error)
-{
-    return edit_parameter(in->core->document, in->core->focus.active, PARAMETER_EQUILIBRIUM, param, error);
-}
+enum { MOTION_GAIN, MOTION_PART };
 
-static const void *followed_gain(const struct inspector *in) { return followed(in)->motion; }
-
-static bool set_gain(struct inspector *in, int which, double gain, struct error *error)
+static bool set_motion(struct inspector *in, int which, double number, struct error *error)
 {
     struct joint_motion motion = *followed(in)->motion;
     const struct param param = {.track = -1, .motion = &motion};
-    (void)which;
-    motion.gain = gain;
-    return follow_joint(in, &param, error);
+    if (which == MOTION_GAIN) motion.gain = number;
+    if (which == MOTION_PART) motion.of = (enum motion_of)number;
+    return edit_parameter(in->core->document, in->core->focus.active, PARAMETER_EQUILIBRIUM, &param, error);
 }
 
 static const struct number_row gain_rows[] = {
-    {NUMBER_AT(struct joint_motion, gain), NAMED("joint.gain", "strength"),
-     .hint = "How much of the joint's motion it follows", .undo = "Set joint's gain", TYPED(-1e6, 1e6), .fallback = 1,
-     .step = 0.01, .decimals = 2},
+    {NUMBER_AT(struct joint_motion, gain), .undo = "Set joint's gain",
+     .ui = {NAMED("joint.gain", "strength"), .hint = "How much of the joint's motion it follows", TYPED(-1e6, 1e6),
+            .fallback = 1, .step = 0.01, .decimals = 2}},
 };
 
 void inspector_parameter(struct inspector *in, enum parameter parameter)
@@ -741,7 +629,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
                                    .undo = row->undo,
                                    .choices = choices,
                                    .count = count};
-        if (inspector_choice(in, &choice, &chosen)) put_parameter(in, (int)parameter, chosen, &in->core->step.error);
+        if (inspector_choice(in, &choice, &chosen)) set_felt(in, (int)parameter, chosen, &in->core->step.error);
         return;
     }
 
@@ -752,7 +640,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
     const struct param *param = &spline->parameter[parameter];
     const struct rect field = follows ? inspector_label(in, r, row->name) : r;
     if (!follows) {
-        build_slider(in, parameter, r);
+        build_number(in, (int)parameter, r);
     } else if (param->motion) {
         const struct joint_motion *motion = param->motion;
         const int model = document_find_model(in->core->document, motion->model, motion->by_file);
@@ -762,8 +650,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
     } else {
         inspector_spline_field(in, &track_list, field, (int)parameter, param->track);
     }
-    struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
-    if (may_follow) build_track_button(in, parameter, button, r);
+    if (may_follow) build_track_button(in, parameter, r);
     if (!spline->parameter[parameter].motion) return;
 
     static const struct ui_choice motions[] = {
@@ -771,18 +658,12 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
     static const struct row part = {NAMED("joint.of", "joint's"),
                                     .hint = "Its turn in degrees, or its movement across or up in metres",
                                     .undo = "Set joint's motion", CHOICES(motions)};
-    static const struct number_home home = {.of = followed_gain, .set = set_gain};
     if (followed(in)->motion) {
-        struct param changed = *followed(in);
-        struct joint_motion motion = *changed.motion;
-        int of = (int)motion.of;
-        changed.motion = &motion;
-        if (inspector_choice(in, &part, &of)) {
-            motion.of = (enum motion_of)of;
-            follow_joint(in, &changed, &in->core->step.error);
-        }
+        int of = (int)followed(in)->motion->of;
+        if (inspector_choice(in, &part, &of)) set_motion(in, MOTION_PART, of, &in->core->step.error);
     }
-    if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
+    const struct number_home home = {.of = followed(in)->motion, .set = set_motion};
+    if (home.of) inspector_numbers(in, gain_rows, 1, &home);
 }
 
 void inspector_spline(struct inspector *in)
@@ -811,31 +692,24 @@ void inspector_advanced(struct inspector *in)
     }
 }
 
-/// A limit's number and switch; off, only the name.
-static void build_limit(struct inspector *in, const struct spline *spline, enum parameter parameter)
-{
-    const struct parameter_row *row = &parameter_rows[parameter];
-    const struct rect r = ui_row(&in->ui, UI_ROW);
-    const struct rect name = {r.x, r.y, r.w - 34, r.h}, at = {r.x + r.w - 28, r.y, 28, r.h};
-    bool on = isfinite(spline->parameter[parameter].value);
-    if (on) {
-        build_slider(in, parameter, name);
-    } else {
-        ui_label(&in->ui, name, row->name, theme()->text_dim);
-    }
-    const struct row limit = {
-        .name = parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", .hint = row->hint, .undo = row->undo};
-    ui_hint(&in->ui, r, row->hint);
-    if (inspector_toggle(in, at, &limit, &on))
-        put_parameter(in, (int)parameter, on ? core_fresh_limit(spline, parameter) : row->standard,
-                      &in->core->step.error);
-}
-
+/// A number and a switch for each limit; off, only the name.
 void inspector_limits(struct inspector *in)
 {
-    const struct spline *spline = core_active_spline(in->core);
-    build_limit(in, spline, PARAMETER_HIGH);
-    build_limit(in, spline, PARAMETER_LOW);
+    for (int which = PARAMETER_HIGH; which >= PARAMETER_LOW; which--) {
+        const struct spline *spline = core_active_spline(in->core);
+        const struct parameter_row *row = &parameter_rows[which];
+        const struct row limit = {
+            .name = which == PARAMETER_HIGH ? "limit.high" : "limit.low", .hint = row->hint, .undo = row->undo};
+        const struct rect r = ui_row(&in->ui, UI_ROW);
+        const struct rect name = {r.x, r.y, r.w - 34, r.h}, at = {r.x + r.w - 28, r.y, 28, r.h};
+        bool on = isfinite(spline->parameter[which].value);
+        if (on) build_number(in, which, name);
+        if (!on) ui_label(&in->ui, name, row->name, theme()->text_dim);
+        ui_hint(&in->ui, r, row->hint);
+        if (!inspector_toggle(in, at, &limit, &on)) continue;
+        const double number = on ? core_fresh_limit(spline, (enum parameter)which) : row->standard;
+        set_felt(in, which, number, &in->core->step.error);
+    }
 }
 
 /// First amount of a roll.
@@ -863,26 +737,21 @@ void inspector_roll(struct inspector *in, int unused)
     if (core_step(in->core, roll_row.undo, 0)) roll(in);
 }
 
-/// Why a variation is not visible, or NULL.
-static const char *stillness(const struct spline *spline)
-{
-    const struct param *p = spline->parameter;
-    if (p[PARAMETER_PASSIVE].value != WIGGLY_OSCILLATOR) return "The paper's filter has no variations.";
-    for (enum parameter n = PARAMETER_FREQUENCY; n <= PARAMETER_BANDWIDTH; n++) {
-        if (p[n].track >= 0 && spline_uses(spline, n, false))
-            return "There are no variations while frequency or damping follows a spline.";
-    }
-    return p[PARAMETER_FREQUENCY].value > 0 ? NULL : "A spline that does not swing has no variations.";
-}
-
 void inspector_variation(struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
-    const char *reason = stillness(spline);
-    build_slider(in, PARAMETER_VARIATION, ui_row(&in->ui, UI_ROW));
+    const struct param *p = spline->parameter;
+    const char *reason = NULL; // why it is not visible
+    if (p[PARAMETER_FREQUENCY].value <= 0) reason = "A spline that does not swing has no variations.";
+    for (enum parameter n = PARAMETER_FREQUENCY; n <= PARAMETER_BANDWIDTH; n++) {
+        if (p[n].track >= 0 && spline_uses(spline, n, false))
+            reason = "There are no variations while frequency or damping follows a spline.";
+    }
+    if (p[PARAMETER_PASSIVE].value != WIGGLY_OSCILLATOR) reason = "The paper's filter has no variations.";
+    build_number(in, PARAMETER_VARIATION, ui_row(&in->ui, UI_ROW));
     struct rect r = ui_row(&in->ui, UI_ROW), button = {r.x + r.w - 64, r.y + 2, 64, r.h - 4};
     r.w -= 70;
-    build_slider(in, PARAMETER_SEED, r);
+    build_number(in, PARAMETER_SEED, r);
     if (inspector_button(in, button, &roll_row)) roll(in);
     if (reason) ui_paragraph(&in->ui, reason, theme()->text_dim);
 }

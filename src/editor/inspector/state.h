@@ -105,7 +105,7 @@ bool inspector_felt_drive(struct inspector *in);
 /// A row that is no number: a button, a choice, a switch, a line of text.
 struct row {
     const char *name, *label, *hint;
-    const char *undo;  ///< label of the undo step that using it opens; NULL: it edits nothing, or core opens the step
+    const char *undo;  ///< label of the undo step that using it opens; NULL: it makes no edit, or core opens the step
     enum ui_icon icon; ///< of an icon button
     bool lit;          ///< of a button: shown as on
     const struct ui_choice *choices; ///< of a choice
@@ -117,7 +117,7 @@ struct row {
 #define ICON(id, shape) .name = (id), .icon = (shape)
 #define CHOICES(of) .choices = (of), .count = sizeof(of) / sizeof *(of)
 
-// They return true if the row was used and its undo step is open, so that you should edit now. The end of the event closes the step.
+// They return true if the row was used: edit now. Its undo step, if it has one, is open then, and the end of the event closes it.
 
 bool inspector_button(struct inspector *in, struct rect r, const struct row *row);
 bool inspector_icon(struct inspector *in, struct rect r, const struct row *row);
@@ -167,28 +167,23 @@ bool inspector_changed(enum ui_change change);
 /// the same selection is one step too. true if you should edit now.
 bool inspector_step(struct inspector *in, enum ui_change change, const char *label, const char *what);
 
-/// Where a table's numbers are stored: the struct of number `which`, and the edit that replaces it.
+/// Where a table's numbers are: in a rig, in another struct, or behind get().
 struct number_home {
-    int (*rig)(const struct inspector *in); ///< the rig that holds them, or NULL; then set() may be NULL
-    const void *(*of)(const struct inspector *in);
-    double (*get)(const struct inspector *in, int which);
+    const int *rig; ///< the index of the rig that holds them, or NULL; then set() may be NULL
+    const void *of; ///< the struct that holds them, or NULL
+    /// Number `which`, or if `kept` the one before (take_keep()), which the bar marks and the row shows while K is held; NAN: none. May
+    /// write a text to show in its place.
+    double (*get)(const struct inspector *in, int which, bool kept, char text[64]);
     bool (*set)(struct inspector *in, int which, double number, struct error *error);
     bool settles; ///< set only when a drag ends, because setting may ask a question
-    /// Text in place of a number: returns `text`, or NULL to show the number. May be NULL itself.
-    const char *(*shown)(const struct inspector *in, int which, char text[64]);
-    /// The number before (take_keep()): a mark on the bar, and shown in its place while K is held. NAN: none. May be NULL itself.
-    double (*was)(const struct inspector *in, int which);
 };
 
+/// A number: its widget, and what the inspector does with it.
 struct number_row {
-    const char *name, *label, *unit, *hint; ///< as in struct ui_number
-    const char *undo;                       ///< as in struct row
-    size_t at;                              ///< offset in the struct, for number_at()
-    bool is_whole;                          ///< stored as an int
-    double minimum, maximum;                ///< of the bar
-    double lowest, highest;                 ///< of typed numbers
-    double fallback, step;
-    int decimals;
+    struct ui_number ui;
+    const char *undo; ///< as in struct row
+    size_t at;        ///< offset in the struct, for number_at()
+    bool is_whole;    ///< stored as an int
 };
 
 /// Where a row's double is, or its int.
