@@ -227,23 +227,6 @@ void drawlist_text(struct drawlist *list, float x, float y, enum font font, floa
     commit(list, command);
 }
 
-/// Length of the longest prefix at most `width` wide and `limit` bytes long.
-static size_t fitting_length(enum font font, float size, float width, size_t limit, const char *utf8)
-{
-    const char *end = utf8;
-    float used = 0.0f;
-    for (;;) {
-        const char *next = end;
-        if (utf8_next(&next) == 0) break;
-        char letter[5] = "";
-        memcpy(letter, end, (size_t)(next - end));
-        used += font_width(font, size, letter);
-        if (used > width || (size_t)(next - utf8) > limit) break;
-        end = next;
-    }
-    return (size_t)(end - utf8);
-}
-
 void drawlist_text_fit(struct drawlist *list, float x, float y, float width, enum font font, float size,
                        uint32_t color, const char *utf8)
 {
@@ -253,8 +236,15 @@ void drawlist_text_fit(struct drawlist *list, float x, float y, float width, enu
         return;
     }
     char cut[256];
-    float room = width - font_width(font, size, ellipsis);
-    size_t length = fitting_length(font, size, room, sizeof cut - sizeof ellipsis, utf8);
+    float used = 0.0f;
+    const float room = width - font_width(font, size, ellipsis);
+    size_t length = 0;
+    for (const char *next = utf8; utf8_next(&next) != 0; length = (size_t)(next - utf8)) { // the longest prefix
+        char letter[5] = "";
+        memcpy(letter, utf8 + length, (size_t)(next - utf8) - length);
+        used += font_width(font, size, letter);
+        if (used > room || (size_t)(next - utf8) > sizeof cut - sizeof ellipsis) break;
+    }
     while (length > 0 && utf8[length - 1] == ' ') length--;
     memcpy(cut, utf8, length);
     memcpy(cut + length, ellipsis, sizeof ellipsis);

@@ -106,27 +106,17 @@ float font_width(enum font font, float size, const char *utf8)
 
 float font_cap_height(enum font font, float size) { return faces[font].cap_height * size; }
 
-/// Bytes of a label that fit into `width`, up to a space if possible, at least one character.
-static size_t line_length(float size, const char *utf8, float width)
-{
-    float ems = 0.0f;
-    size_t fits = 0;
-    const char *at = utf8;
-    while (*at) {
-        const uint32_t c = utf8_next(&at);
-        size_t length = (size_t)(at - utf8);
-        if (length >= 256) break;
-        bool whole = *at == ' ' || *at == '\0';
-        ems += faces[FONT_LABEL].glyphs[slot_of(c)].advance;
-        if (ems * size > width) return fits ? fits : length;
-        if (whole) fits = length;
-    }
-    return fits ? fits : (size_t)(at - utf8);
-}
-
 size_t font_take_line(float size, float width, const char **utf8)
 {
-    const size_t length = line_length(size, *utf8, width);
+    enum { MOST = 255 };
+    float ems = 0.0f;
+    size_t length = 0, fits = 0;
+    for (const char *at = *utf8; *at && length <= MOST && ems * size <= width;) {
+        ems += faces[FONT_LABEL].glyphs[slot_of(utf8_next(&at))].advance;
+        length = (size_t)(at - *utf8);
+        if ((*at == ' ' || !*at) && length <= MOST && ems * size <= width) fits = length;
+    }
+    if (fits > 0) length = fits;
     *utf8 += length;
     while (**utf8 == ' ') ++*utf8;
     return length;
@@ -141,11 +131,6 @@ static const float sizes[SIZE_COUNT] = {THEME_TEXT_SMALL, THEME_TEXT_NORMAL, THE
 /// atlas.storage: glyphs by font, size and slot.
 struct glyph_table {
     struct glyph glyphs[FONT_COUNT][SIZE_COUNT][SLOTS];
-};
-
-/// Places glyphs in rows, each below the tallest glyph of the last.
-struct typesetter {
-    int x, y, row_height;
 };
 
 enum { ENTRY_COUNT = FONT_COUNT * SIZE_COUNT * SLOTS };
@@ -168,61 +153,58 @@ static struct entry table_entry(const struct atlas *atlas, int i)
     return entry;
 }
 
-/// Reserves texels with a gap on all sides, so that filtering never mixes neighbours. Three samples across make a pixel; their filter needs
-/// two more columns.
-static void place_glyph(struct typesetter *setter, struct entry entry)
-{
-    struct glyph *glyph = entry.glyph;
-    int x0, y0, x1, y1;
-    stbtt_GetGlyphBitmapBox(entry.info, entry.source->index, entry.scale * OVERSAMPLE, entry.scale, &x0, &y0, &x1,
-                            &y1);
-    glyph->advance = entry.source->advance * entry.em;
-    if (x1 <= x0 || y1 <= y0) return;
-    const int width = x1 - x0 + OVERSAMPLE - 1, height = y1 - y0;
-    if (setter->x + width + GAP > ATLAS_WIDTH) {
-        setter->x = GAP;
-        setter->y += setter->row_height + GAP;
-        setter->row_height = 0;
-    }
-    glyph->x0 = (unsigned short)setter->x;
-    glyph->y0 = (unsigned short)setter->y;
-    glyph->x1 = (unsigned short)(setter->x + width);
-    glyph->y1 = (unsigned short)(setter->y + height);
-    setter->x += width + GAP;
-    if (height > setter->row_height) setter->row_height = height;
-    glyph->xoff = (float)x0 / OVERSAMPLE;
-    glyph->xoff2 = (float)(x0 + width) / OVERSAMPLE;
-    glyph->yoff = (float)y0;
-    glyph->yoff2 = (float)y1;
-}
-
-static void rasterise_glyph(struct atlas *atlas, struct entry entry)
-{
-    struct glyph *glyph = entry.glyph;
-    if (glyph->x1 == glyph->x0) return;
-    unsigned char *out = atlas->coverage + (size_t)glyph->y0 * (size_t)atlas->width + glyph->x0;
-    float shift_x = 0, shift_y = 0;
-    stbtt_MakeGlyphBitmapSubpixelPrefilter(entry.info, out, glyph->x1 - glyph->x0, glyph->y1 - glyph->y0,
-                                           atlas->width, entry.scale * OVERSAMPLE, entry.scale, 0, 0, OVERSAMPLE, 1,
-                                           &shift_x, &shift_y, entry.source->index);
-    glyph->xoff += shift_x;
-    glyph->xoff2 += shift_x;
-}
-
 bool atlas_build(float scale, struct atlas *atlas, struct error *error)
 {
-    struct typesetter setter = {.x = GAP + 1, .y = GAP + 1};
+    int x = GAP + 1, y = GAP + 1, row_height = 0;
     struct glyph_table *table = need_zeroed(1, sizeof *table);
     *atlas = (struct atlas){.width = ATLAS_WIDTH, .scale = scale, .storage = table};
-    for (int i = 0; i < ENTRY_COUNT; i++) place_glyph(&setter, table_entry(atlas, i));
-    atlas->height = setter.y + setter.row_height + GAP;
+
+    // Glyphs lie in rows, each below the tallest glyph of the last, with a gap on all sides, so that filtering never mixes neighbours.
+    // Three samples across make a pixel; their filter needs two more columns.
+    for (int i = 0; i < ENTRY_COUNT; i++) {
+        const struct entry entry = table_entry(atlas, i);
+        struct glyph *glyph = entry.glyph;
+        int x0, y0, x1, y1;
+        stbtt_GetGlyphBitmapBox(entry.info, entry.source->index, entry.scale * OVERSAMPLE, entry.scale, &x0, &y0, &x1,
+                                &y1);
+        glyph->advance = entry.source->advance * entry.em;
+        if (x1 <= x0 || y1 <= y0) continue;
+        const int width = x1 - x0 + OVERSAMPLE - 1, height = y1 - y0;
+        if (x + width + GAP > ATLAS_WIDTH) {
+            x = GAP;
+            y += row_height + GAP;
+            row_height = 0;
+        }
+        glyph->x0 = (unsigned short)x;
+        glyph->y0 = (unsigned short)y;
+        glyph->x1 = (unsigned short)(x + width);
+        glyph->y1 = (unsigned short)(y + height);
+        x += width + GAP;
+        if (height > row_height) row_height = height;
+        glyph->xoff = (float)x0 / OVERSAMPLE;
+        glyph->xoff2 = (float)(x0 + width) / OVERSAMPLE;
+        glyph->yoff = (float)y0;
+        glyph->yoff2 = (float)y1;
+    }
+    atlas->height = y + row_height + GAP;
     if (atlas->height > ATLAS_MAX_HEIGHT) {
         atlas_free(atlas);
         return fail(error, ERROR_ENVIRONMENT, "the fonts do not fit into a texture at scale %g", (double)scale);
     }
     atlas->coverage = need_zeroed((size_t)atlas->height, (size_t)atlas->width);
-    for (int i = 0; i < ENTRY_COUNT; i++) rasterise_glyph(atlas, table_entry(atlas, i));
     atlas->coverage[0] = 255;
+    for (int i = 0; i < ENTRY_COUNT; i++) {
+        const struct entry entry = table_entry(atlas, i);
+        struct glyph *glyph = entry.glyph;
+        float shift_x = 0, shift_y = 0;
+        if (glyph->x1 == glyph->x0) continue;
+        unsigned char *out = atlas->coverage + (size_t)glyph->y0 * (size_t)atlas->width + glyph->x0;
+        stbtt_MakeGlyphBitmapSubpixelPrefilter(entry.info, out, glyph->x1 - glyph->x0, glyph->y1 - glyph->y0,
+                                               atlas->width, entry.scale * OVERSAMPLE, entry.scale, 0, 0, OVERSAMPLE,
+                                               1, &shift_x, &shift_y, entry.source->index);
+        glyph->xoff += shift_x;
+        glyph->xoff2 += shift_x;
+    }
 
     // Light text on dark looks too thin: coverage^0.85, chosen by eye.
     unsigned char curve[256];

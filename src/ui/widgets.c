@@ -565,46 +565,46 @@ static const struct icon_part {
     int count;    ///< points of a line or arc
     float at[10]; ///< coordinates
 } icon_parts[] = {
-    {UI_ICON_ADD, LINE, 2, {-5, 0, 5, 0}},
-    {UI_ICON_ADD, LINE, 2, {0, -5, 0, 5}},
-    {UI_ICON_COPY, LINE, 5, {-2, -2, 5, -2, 5, 5, -2, 5, -2, -2}},
-    {UI_ICON_COPY, LINE, 5, {-2, 2, -5, 2, -5, -5, 2, -5, 2, -2}},
-    {UI_ICON_DELETE, LINE, 2, {-5, -3.5f, 5, -3.5f}}, // a bin
-    {UI_ICON_DELETE, LINE, 2, {-1.5f, -5.5f, 1.5f, -5.5f}},
-    {UI_ICON_DELETE, LINE, 4, {-3.8f, -3.5f, -3.2f, 5, 3.2f, 5, 3.8f, -3.5f}},
-    {UI_ICON_DELETE, LINE, 2, {0, -1, 0, 2.5f}},
-    {UI_ICON_UP, LINE, 3, {-4.5f, 2.5f, 0, -2, 4.5f, 2.5f}},
-    {UI_ICON_DOWN, LINE, 3, {-4.5f, -2.5f, 0, 2, 4.5f, -2.5f}},
-    {UI_ICON_EYE, ARC, 9, {0, 3.5f, 7, 7.5f, 0.57f, 0.93f}},
-    {UI_ICON_EYE, ARC, 9, {0, -3.5f, 7, 7.5f, 0.07f, 0.43f}},
-    {UI_ICON_EYE, DOT, 0, {0, 0, 2}},
-    {UI_ICON_EYE_CLOSED, ARC, 9, {0, -3.5f, 7, 7.5f, 0.07f, 0.43f}},
-    {UI_ICON_EYE_CLOSED, LINE, 2, {0, 4, 0, 6}},
-    {UI_ICON_EYE_CLOSED, LINE, 2, {-4, 3, -5, 4.8f}},
-    {UI_ICON_EYE_CLOSED, LINE, 2, {4, 3, 5, 4.8f}},
-    {UI_ICON_SOLO, RING, 0, {0, 0, 5.5f}},
-    {UI_ICON_SOLO, DOT, 0, {0, 0, 2.2f}},
-    {UI_ICON_FOLLOW, ARC, 17, {-3, 0, 3.2f, 3.2f, 0.08f, 0.92f}}, // two links of a chain
-    {UI_ICON_FOLLOW, ARC, 17, {3, 0, 3.2f, 3.2f, -0.42f, 0.42f}},
-    {UI_ICON_FOLLOW, LINE, 2, {-2.2f, 0, 2.2f, 0}},
-    {UI_ICON_UNFOLLOW, ARC, 17, {-3, 0, 3.2f, 3.2f, 0.08f, 0.92f}},
-    {UI_ICON_UNFOLLOW, ARC, 17, {3, 0, 3.2f, 3.2f, -0.42f, 0.42f}},
-    {UI_ICON_UNFOLLOW, LINE, 2, {-2.2f, 0, 2.2f, 0}},
-    {UI_ICON_UNFOLLOW, LINE, 2, {4.5f, -5.5f, -4.5f, 5.5f}},
-    {UI_ICON_PICK, RING, 0, {0, 0, 4}},
-    {UI_ICON_PICK, DOT, 0, {0, 0, 1.2f}},
-    {UI_ICON_PICK, LINE, 2, {-6.5f, 0, -3, 0}},
-    {UI_ICON_PICK, LINE, 2, {3, 0, 6.5f, 0}},
-    {UI_ICON_PICK, LINE, 2, {0, -6.5f, 0, -3}},
-    {UI_ICON_PICK, LINE, 2, {0, 3, 0, 6.5f}},
-    {UI_ICON_RAMP, LINE, 4, {-5.5f, 4, -1.5f, 1.5f, 1.5f, -2.5f, 5.5f, -4}},
-    {UI_ICON_RAMP, DOT, 0, {-5, 3.7f, 1.8f}},
-    {UI_ICON_RAMP, DOT, 0, {5, -3.8f, 1.8f}},
-    {UI_ICON_EACH, LINE, 2, {-5, 5.5f, -5, 2.5f}},
-    {UI_ICON_EACH, LINE, 2, {-2.5f, 5.5f, -2.5f, 0.5f}},
-    {UI_ICON_EACH, LINE, 2, {0, 5.5f, 0, -1.5f}},
-    {UI_ICON_EACH, LINE, 2, {2.5f, 5.5f, 2.5f, -3.5f}},
-    {UI_ICON_EACH, LINE, 2, {5, 5.5f, 5, -5.5f}},
+    {UI_ICON_ADD, LINE, .count = 2, .at = {-5, 0, 5, 0}},
+    {UI_ICON_ADD, LINE, .count = 2, .at = {0, -5, 0, 5}},
+    {UI_ICON_COPY, LINE, .count = 5, .at = {-2, -2, 5, -2, 5, 5, -2, 5, -2, -2}},
+    {UI_ICON_COPY, LINE, .count = 5, .at = {-2, 2, -5, 2, -5, -5, 2, -5, 2, -2}},
+    {UI_ICON_DELETE, LINE, .count = 2, .at = {-5, -3.5f, 5, -3.5f}}, // a bin
+    {UI_ICON_DELETE, LINE, .count = 2, .at = {-1.5f, -5.5f, 1.5f, -5.5f}},
+    {UI_ICON_DELETE, LINE, .count = 4, .at = {-3.8f, -3.5f, -3.2f, 5, 3.2f, 5, 3.8f, -3.5f}},
+    {UI_ICON_DELETE, LINE, .count = 2, .at = {0, -1, 0, 2.5f}},
+    {UI_ICON_UP, LINE, .count = 3, .at = {-4.5f, 2.5f, 0, -2, 4.5f, 2.5f}},
+    {UI_ICON_DOWN, LINE, .count = 3, .at = {-4.5f, -2.5f, 0, 2, 4.5f, -2.5f}},
+    {UI_ICON_EYE, ARC, .count = 9, .at = {0, 3.5f, 7, 7.5f, 0.57f, 0.93f}},
+    {UI_ICON_EYE, ARC, .count = 9, .at = {0, -3.5f, 7, 7.5f, 0.07f, 0.43f}},
+    {UI_ICON_EYE, DOT, .at = {0, 0, 2}},
+    {UI_ICON_EYE_CLOSED, ARC, .count = 9, .at = {0, -3.5f, 7, 7.5f, 0.07f, 0.43f}},
+    {UI_ICON_EYE_CLOSED, LINE, .count = 2, .at = {0, 4, 0, 6}},
+    {UI_ICON_EYE_CLOSED, LINE, .count = 2, .at = {-4, 3, -5, 4.8f}},
+    {UI_ICON_EYE_CLOSED, LINE, .count = 2, .at = {4, 3, 5, 4.8f}},
+    {UI_ICON_SOLO, RING, .at = {0, 0, 5.5f}},
+    {UI_ICON_SOLO, DOT, .at = {0, 0, 2.2f}},
+    {UI_ICON_FOLLOW, ARC, .count = 17, .at = {-3, 0, 3.2f, 3.2f, 0.08f, 0.92f}}, // two links of a chain
+    {UI_ICON_FOLLOW, ARC, .count = 17, .at = {3, 0, 3.2f, 3.2f, -0.42f, 0.42f}},
+    {UI_ICON_FOLLOW, LINE, .count = 2, .at = {-2.2f, 0, 2.2f, 0}},
+    {UI_ICON_UNFOLLOW, ARC, .count = 17, .at = {-3, 0, 3.2f, 3.2f, 0.08f, 0.92f}},
+    {UI_ICON_UNFOLLOW, ARC, .count = 17, .at = {3, 0, 3.2f, 3.2f, -0.42f, 0.42f}},
+    {UI_ICON_UNFOLLOW, LINE, .count = 2, .at = {-2.2f, 0, 2.2f, 0}},
+    {UI_ICON_UNFOLLOW, LINE, .count = 2, .at = {4.5f, -5.5f, -4.5f, 5.5f}},
+    {UI_ICON_PICK, RING, .at = {0, 0, 4}},
+    {UI_ICON_PICK, DOT, .at = {0, 0, 1.2f}},
+    {UI_ICON_PICK, LINE, .count = 2, .at = {-6.5f, 0, -3, 0}},
+    {UI_ICON_PICK, LINE, .count = 2, .at = {3, 0, 6.5f, 0}},
+    {UI_ICON_PICK, LINE, .count = 2, .at = {0, -6.5f, 0, -3}},
+    {UI_ICON_PICK, LINE, .count = 2, .at = {0, 3, 0, 6.5f}},
+    {UI_ICON_RAMP, LINE, .count = 4, .at = {-5.5f, 4, -1.5f, 1.5f, 1.5f, -2.5f, 5.5f, -4}},
+    {UI_ICON_RAMP, DOT, .at = {-5, 3.7f, 1.8f}},
+    {UI_ICON_RAMP, DOT, .at = {5, -3.8f, 1.8f}},
+    {UI_ICON_EACH, LINE, .count = 2, .at = {-5, 5.5f, -5, 2.5f}},
+    {UI_ICON_EACH, LINE, .count = 2, .at = {-2.5f, 5.5f, -2.5f, 0.5f}},
+    {UI_ICON_EACH, LINE, .count = 2, .at = {0, 5.5f, 0, -1.5f}},
+    {UI_ICON_EACH, LINE, .count = 2, .at = {2.5f, 5.5f, 2.5f, -3.5f}},
+    {UI_ICON_EACH, LINE, .count = 2, .at = {5, 5.5f, 5, -5.5f}},
 };
 
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint)
@@ -640,30 +640,24 @@ bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon
 
 // --- typing filters lists
 
-static enum fit fit_word(const char *text, const char *word, size_t length)
-{
-    enum fit best = FIT_LETTERS;
-    size_t found = 0;
-    for (const char *at = text; *at && found < length; at++)
-        found += tolower((unsigned char)*at) == tolower((unsigned char)word[found]);
-    if (found < length) return FIT_NOT;
-    for (const char *at = text; *at; at++) {
-        if (strncasecmp(at, word, length) != 0) continue;
-        const bool is_inside = at > text && (isalnum((unsigned char)at[-1]) || (unsigned char)at[-1] >= 0x80);
-        const enum fit fit = at == text ? FIT_START : is_inside ? FIT_INSIDE : FIT_WORD;
-        if (fit > best) best = fit;
-    }
-    return best;
-}
-
 enum fit ui_filter_fit(const struct ui_filter *filter, const char *text)
 {
     enum fit worst = FIT_START;
     const char *word = filter->typed;
     while (*(word += strspn(word, " "))) {
         const size_t length = strcspn(word, " ");
-        const enum fit fit = fit_word(text, word, length);
-        if (fit < worst) worst = fit;
+        enum fit best = FIT_LETTERS;
+        size_t found = 0;
+        for (const char *at = text; *at && found < length; at++)
+            found += tolower((unsigned char)*at) == tolower((unsigned char)word[found]);
+        if (found < length) return FIT_NOT;
+        for (const char *at = text; *at; at++) {
+            if (strncasecmp(at, word, length) != 0) continue;
+            const bool is_inside = at > text && (isalnum((unsigned char)at[-1]) || (unsigned char)at[-1] >= 0x80);
+            const enum fit fit = at == text ? FIT_START : is_inside ? FIT_INSIDE : FIT_WORD;
+            if (fit > best) best = fit;
+        }
+        if (best < worst) worst = best;
         word += length;
     }
     return worst;

@@ -42,21 +42,6 @@ static void erase(struct ui_text *text, int from, int to)
     text->caret = from;
 }
 
-static bool insert_character(struct ui_text *text, uint32_t codepoint)
-{
-    if (codepoint < 0x20 || codepoint == 0x7F || codepoint > 0x10FFFF) return false;
-    if (text->all) erase(text, 0, text->length);
-    text->all = false;
-    char bytes[4];
-    int n = utf8_encode(codepoint, bytes);
-    if (text->length + n >= UI_TEXT_SIZE) return false;
-    memmove(text->bytes + text->caret + n, text->bytes + text->caret, (size_t)(text->length - text->caret) + 1);
-    memcpy(text->bytes + text->caret, bytes, (size_t)n);
-    text->length += n;
-    text->caret += n;
-    return true;
-}
-
 bool ui_selects_all(const struct event *event)
 {
     return event->kind == EVENT_KEY && event->action != ACTION_RELEASE && event->key == 'A' &&
@@ -68,7 +53,20 @@ bool ui_text_event(struct ui_text *text, const struct event *event, bool *change
     const int length = text->length;
     bool edited = false, used = true;
     if (event->kind == EVENT_TEXT) {
-        edited = insert_character(text, event->codepoint);
+        const uint32_t c = event->codepoint;
+        const bool typed = c >= 0x20 && c != 0x7F && c <= 0x10FFFF;
+        char bytes[4];
+        const int n = typed ? utf8_encode(c, bytes) : 0;
+        if (typed && text->all) erase(text, 0, length);
+        text->all &= !typed;
+        edited = typed && text->length + n < UI_TEXT_SIZE;
+        if (edited) {
+            char *caret = text->bytes + text->caret;
+            memmove(caret + n, caret, (size_t)(text->length - text->caret) + 1);
+            memcpy(caret, bytes, (size_t)n);
+            text->length += n;
+            text->caret += n;
+        }
     } else if (ui_selects_all(event)) {
         text->all = text->length > 0;
     } else if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE && !(event->mods & MOD_CTRL)) {
@@ -228,25 +226,6 @@ static double limited(const struct ui_number *number, double value)
     return fmax(number->lowest, fmin(number->highest, value));
 }
 
-/// "1.5", "1,5" (many keypads type a comma), or "1.5 Hz". Not hexadecimal, not "inf".
-static bool parse_number(const struct ui_number *number, const char *typed, double *value)
-{
-    char copy[UI_TEXT_SIZE], *comma;
-    const char *text = copy;
-    snprintf(copy, sizeof copy, "%s", typed);
-    if ((comma = strchr(copy, ','))) *comma = '.';
-    while (*text == ' ') text++;
-    size_t length = strspn(text, "+-.0123456789eE");
-    char *end;
-    *value = strtod(text, &end);
-    if (end == text || (size_t)(end - text) > length || !isfinite(*value)) return false;
-    while (*end == ' ') end++;
-    size_t unit = number->unit ? strlen(number->unit) : 0;
-    if (unit && strncmp(end, number->unit, unit) == 0) end += unit;
-    while (*end == ' ') end++;
-    return *end == '\0';
-}
-
 static void begin_typing(struct ui *ui, uint32_t id, double value, bool by_pointer)
 {
     char text[64];
@@ -266,15 +245,22 @@ static void end_typing(struct ui *ui)
     if (ui->by_pointer) ui->focus = 0;
 }
 
-/// Parses the typed text; false, with the reason in ui->complaint, if it is no number or out of range.
+/// Parses the typed text: "1.5", "1,5" (many keypads type a comma), or "1.5 Hz"; not hexadecimal, not "inf". false, with the reason in
+/// ui->complaint, if it is no number or out of range.
 static bool take_typed(struct ui *ui, const struct ui_number *number, double *value)
 {
-    double typed;
-    char range[64];
-    const char *what = number->label ? number->label : number->name;
-    if (!parse_number(number, ui->text.bytes, &typed)) {
-        snprintf(ui->complaint, sizeof ui->complaint, "%s: expected a number, got “%.*s”", what,
-                 name_fit(ui->text.bytes, 40), ui->text.bytes);
+    const char *what = number->label ? number->label : number->name, *text = ui->text.bytes;
+    char copy[UI_TEXT_SIZE], range[64], *comma, *end;
+    snprintf(copy, sizeof copy, "%s", text + strspn(text, " "));
+    if ((comma = strchr(copy, ','))) *comma = '.';
+    const double typed = strtod(copy, &end);
+    const bool found = end > copy && (size_t)(end - copy) <= strspn(copy, "+-.0123456789eE") && isfinite(typed);
+    const size_t unit = number->unit ? strlen(number->unit) : 0;
+    end += strspn(end, " ");
+    if (unit && strncmp(end, number->unit, unit) == 0) end += unit;
+    if (!found || end[strspn(end, " ")] != '\0') {
+        snprintf(ui->complaint, sizeof ui->complaint, "%s: expected a number, got “%.*s”", what, name_fit(text, 40),
+                 text);
         return false;
     }
     if (typed < number->lowest || typed > number->highest) {
@@ -515,48 +501,6 @@ static int nearest_handle(const struct ui_handle *handles, int count, float x, f
     return best;
 }
 
-/// The handle keeps its offset from the pointer; Shift: a tenth as fast.
-static enum ui_change drag_handle(struct ui *ui, struct ui_handle *handle)
-{
-    const struct event *event = ui->event;
-    if (event->kind != EVENT_POINTER) return ui_held_change(ui);
-    ui->used = true;
-    if (!ui->moved && maths_hypotf(event->x - ui->press_x, event->y - ui->press_y) < DRAG_THRESHOLD) return UI_NONE;
-    float rate = event->mods & MOD_SHIFT ? 0.1f : 1;
-    ui->moved = true;
-    ui->handle_x += rate * (event->x - ui->press_x);
-    ui->handle_y += rate * (event->y - ui->press_y);
-    ui->press_x = event->x;
-    ui->press_y = event->y;
-    handle->x = ui->handle_x;
-    handle->y = ui->handle_y;
-    return UI_DRAG;
-}
-
-static enum ui_change step_handle(struct ui *ui, struct ui_handle *handle)
-{
-    if (!ui_focused_key(ui, ui_id(ui, handle->name))) return UI_NONE;
-    int steps = ui->event->mods & MOD_SHIFT ? 10 : 1;
-    switch (ui->event->key) {
-    case KEY_LEFT:
-        handle->step_x = -steps;
-        break;
-    case KEY_RIGHT:
-        handle->step_x = steps;
-        break;
-    case KEY_DOWN:
-        handle->step_y = -steps;
-        break;
-    case KEY_UP:
-        handle->step_y = steps;
-        break;
-    default:
-        return UI_NONE;
-    }
-    ui->used = true;
-    return UI_NUDGE;
-}
-
 enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *handles, int count, int *which)
 {
     for (int i = 0; i < count; i++) {
@@ -577,13 +521,31 @@ enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *han
         ui_focus_ring(ui, id, around);
     }
     if (ui->pass != UI_PASS_EVENT || ui->used) return UI_NONE;
+    const struct event *event = ui->event;
+    const bool is_shift = event->mods & MOD_SHIFT;
     for (*which = 0; *which < count; ++*which) {
         struct ui_handle *handle = &handles[*which];
-        if (ui->held == ui_id(ui, handle->name)) return drag_handle(ui, handle);
-        enum ui_change change = step_handle(ui, handle);
-        if (change != UI_NONE) return change;
+        const uint32_t id = ui_id(ui, handle->name);
+        if (ui->held == id) { // it keeps its offset from the pointer; Shift: a tenth as fast
+            if (event->kind != EVENT_POINTER) return ui_held_change(ui);
+            const float x = event->x - ui->press_x, y = event->y - ui->press_y, rate = is_shift ? 0.1f : 1;
+            ui->used = true;
+            if (!ui->moved && maths_hypotf(x, y) < DRAG_THRESHOLD) return UI_NONE;
+            ui->moved = true;
+            ui->press_x = event->x;
+            ui->press_y = event->y;
+            handle->x = ui->handle_x += rate * x;
+            handle->y = ui->handle_y += rate * y;
+            return UI_DRAG;
+        }
+        if (!ui_focused_key(ui, id)) continue;
+        const int steps = is_shift ? 10 : 1;
+        handle->step_x = steps * ((event->key == KEY_RIGHT) - (event->key == KEY_LEFT));
+        handle->step_y = steps * ((event->key == KEY_UP) - (event->key == KEY_DOWN));
+        ui->used = handle->step_x != 0 || handle->step_y != 0;
+        if (ui->used) return UI_NUDGE;
     }
-    const int at = nearest_handle(handles, count, ui->event->x, ui->event->y);
+    const int at = nearest_handle(handles, count, event->x, event->y);
     if (at < 0 || !ui_pressed(ui, area, BUTTON_LEFT)) return UI_NONE;
     ui_hold(ui, ui_id(ui, handles[at].name));
     ui->handle_x = handles[at].x;
