@@ -1,0 +1,478 @@
+/// The solver against a textbook one in quadruple precision, on short splines of every pattern, long domains and long gaps. What it calls
+/// solved is within the tolerance of docs/mathematics.md; for all else the error that it tells is no smaller than the real one. The
+/// textbook's matrix itself is checked with LAPACKE.
+#include "near.h"
+
+#include "curve.h"
+#include "spline/solver.h"
+#include "textbook.h"
+#include "uniform.h"
+#include <lapacke.h>
+
+enum { MOST = 100000, SHORT = 40 };
+
+/// Ways to solve: as ever, without the chain, and without squaring a matrix.
+enum way { USUAL, BAND, ROWS, WAYS };
+static const char *const way_names[WAYS] = {"as ever", "by the band", "by the rows"};
+static wiggly_solver *solvers[WAYS];
+
+/// The problem at hand, its exact curve, and what each way made of it.
+static wiggly_desc desc;
+static wiggly_knot knots[MOST];
+static double tracks[4][MOST];
+static struct textbook book;
+static double exact[3][MOST]; ///< total, Re x, Im x
+static struct answer {
+    wiggly_status status;
+    double error; ///< relative to the largest total
+    double told;
+    int sweeps;
+} answers[WAYS];
+
+/// What is asked of the answers.
+struct demand {
+    double tolerance;
+    unsigned ways;       ///< a bit each; 0: all
+    bool may_be_inexact; ///< any way may tell its error instead
+};
+
+static void begin(int samples, wiggly_mode mode, wiggly_start start)
+{
+    desc = wiggly_default_desc();
+    desc.samples = samples;
+    desc.mode = mode;
+    desc.start = start;
+    desc.knots = knots;
+}
+
+static wiggly_knot *add_knot(int sample, double value)
+{
+    knots[desc.knot_count] = (wiggly_knot){.sample = sample, .value = value};
+    return &knots[desc.knot_count++];
+}
+
+/// The largest difference in total, Re x and Im x, and the largest total.
+static double difference(const double *const a[3], const double *const b[3], double *size)
+{
+    double worst = 0;
+    *size = 0;
+    for (int i = 0; i < desc.samples && worst == worst; i++) {
+        for (int c = 0; c < 3; c++) {
+            const double apart = fabs(a[c][i] - b[c][i]);
+            if (!(apart <= worst)) worst = apart; // NaN stays
+        }
+        *size = fmax(*size, fabs(a[0][i]));
+    }
+    return worst;
+}
+
+static bool find_exact(void) { return textbook_as(&desc, WIGGLY_OK, &book, exact[0], exact[1], exact[2]); }
+
+static void solve(enum way way)
+{
+    static double numbers[5 * MOST];
+    wiggly_curve curve = curve_in(numbers, MOST);
+    struct answer *answer = &answers[way];
+    answer->status = wiggly_solve(solvers[way], &desc, &curve);
+    answer->told = curve.error, answer->sweeps = curve.refinements + 1;
+    const double *const is[3] = {exact[0], exact[1], exact[2]}, *const seen[3] = {curve.total, curve.re, curve.im};
+    double size;
+    answer->error = difference(is, seen, &size) / size;
+}
+
+/// Judges all ways; the exact curve is found.
+static void judge(const char *what, long which, const struct demand *demand)
+{
+    for (int w = 0; w < WAYS; w++) {
+        if (demand->ways && !(demand->ways >> w & 1)) continue;
+        solve((enum way)w);
+        const struct answer *a = &answers[w];
+        const bool is_solved = a->status == WIGGLY_OK;
+        if ((is_solved || (demand->may_be_inexact && a->status == WIGGLY_INEXACT)) &&
+            (a->error <= demand->tolerance || (!is_solved && a->error <= a->told)) &&
+            a->error <= 10 * fmax(a->told, 1e-12))
+            continue;
+        fail_msg("%s %ld, %s, mode %d, start %d, %d samples, %d knots: %s, off by %g, tells %g", what, which,
+                 way_names[w], desc.mode, desc.start, desc.samples, desc.knot_count, wiggly_status_text(a->status),
+                 a->error, a->told);
+    }
+}
+
+// --- short splines ---------------------------------------------------------------------------------------------------
+
+static int pick(uint64_t *seed, int count) { return (int)(uniform(seed) * count); }
+
+static wiggly_param some_param(uint64_t *seed, int slot, double low, double high)
+{
+    wiggly_param param = {.value = low + (high - low) * uniform(seed)};
+    if (pick(seed, 4) > 0) return param;
+    const double from = param.value, to = low + (high - low) * uniform(seed);
+    for (int i = 0; i < desc.samples; i++) {
+        const double s = desc.samples > 1 ? (double)i / (desc.samples - 1) : 0;
+        tracks[slot][i] = from + (to - from) * s * s * (3 - 2 * s);
+    }
+    if (desc.start == WIGGLY_LOOP) tracks[slot][desc.samples - 1] = tracks[slot][0];
+    param.track = tracks[slot];
+    return param;
+}
+
+/// Knots on the samples of `pattern`, everything else at random.
+static void make_short(uint64_t *seed, int samples, uint64_t pattern, wiggly_mode mode, wiggly_start start)
+{
+    begin(samples, mode, start);
+    desc.passive = pick(seed, 2) ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
+    desc.step = pick(seed, 2) ? 1.0 / 24 : 1.0 / 240;
+    desc.calm = (double[]){1, 0.3, 0.05}[pick(seed, 3)];
+    desc.frequency = some_param(seed, 0, 0.3, 4);
+    desc.damping = some_param(seed, 1, 0.02, mode == WIGGLY_REAL ? 1.6 : 1.2);
+    desc.bandwidth = some_param(seed, 2, 0, 0.4);
+    if (pick(seed, 3) == 0) desc.equilibrium = some_param(seed, 3, -1, 1);
+    if (mode == WIGGLY_REAL && pick(seed, 4) == 0) {
+        const double k = 400 * uniform(seed), gamma = 8 * uniform(seed);
+        desc.frequency.track = desc.damping.track = NULL;
+        wiggly_from_spring(k, gamma, &desc.frequency.value, &desc.damping.value);
+    }
+    for (int i = 0; i < samples - (start == WIGGLY_LOOP ? 1 : 0); i++) {
+        if (!(pattern >> i & 1)) continue;
+        wiggly_knot *knot = add_knot(i, 2 * uniform(seed) - 1);
+        knot->has_slope = pick(seed, 3) == 0;
+        knot->slope = 4 * uniform(seed) - 2;
+        knot->stiffness = (double[]){1000, 1, 1e6}[pick(seed, 3)];
+    }
+}
+
+/// Whether the textbook has an answer of its own: enough samples, and something to solve.
+static bool is_solvable(void)
+{
+    if (desc.knot_count == 0) return false;
+    const int earliest = knots[0].sample;
+    const int m = desc.start == WIGGLY_LOOP   ? desc.samples - 1
+                  : desc.start == WIGGLY_FREE ? desc.samples - earliest
+                                              : desc.samples;
+    return m >= 3 && (desc.start != WIGGLY_REST || earliest > 1);
+}
+
+/// The textbook's matrix by LAPACKE's banded Cholesky, in double; x into the book.
+static void solve_with_lapack(void)
+{
+    enum { KD = 5 };
+    static double band[2 * SHORT][KD + 1], right[2 * SHORT];
+    int map[2 * SHORT], n = 0;
+    for (int i = 0; i < 2 * book.count; i++) {
+        if (book.used[i] && !book.fixed[i]) map[n++] = i;
+    }
+    memset(band, 0, sizeof band);
+    for (int j = 0; j < n; j++) {
+        right[j] = (double)book.right[map[j]];
+        for (int i = 0; i < 2 * book.count; i++) {
+            if (book.fixed[i]) right[j] -= (double)(textbook_entry(&book, map[j], i) * book.x[i]);
+        }
+        for (int i = j; i < n && i <= j + KD; i++) band[j][i - j] = (double)textbook_entry(&book, map[i], map[j]);
+    }
+    assert_int_equal(LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', n, KD, 1, &band[0][0], KD + 1, right, 2 * SHORT), 0);
+    for (int i = 0; i < n; i++) book.x[map[i]] = right[i];
+}
+
+struct tally {
+    int solved, lapack;
+};
+
+static void compare_short(uint64_t seed, struct tally *tally)
+{
+    static const struct demand demand = {.tolerance = 1e-9};
+    static double by_lapack[3][SHORT];
+    if (!is_solvable() || !find_exact() || book.pivot <= 1e-13) return;
+    judge("the short spline of seed", (long)seed, &demand);
+    tally->solved++;
+    if (desc.start == WIGGLY_LOOP) return;
+    solve_with_lapack();
+    textbook_fill(&book, by_lapack[0], by_lapack[1], by_lapack[2]);
+    const double *const is[3] = {exact[0], exact[1], exact[2]}, *const seen[3] = {by_lapack[0], by_lapack[1],
+                                                                                  by_lapack[2]};
+    double size;
+    const double off = difference(is, seen, &size);
+    if (!(off <= 1e-5 * size)) fail_msg("seed %llu: LAPACKE off by %g of %g", (unsigned long long)seed, off, size);
+    tally->lapack++;
+}
+
+TEST(every_pattern_to_10_samples)
+{
+    struct tally tally = {0};
+    uint64_t seed = 1;
+    for (int samples = 1; samples <= quick_or_all(8, 10); samples++) {
+        for (uint64_t pattern = 0; pattern < 1u << samples; pattern++) {
+            for (int kind = 0; kind < 9; kind++) {
+                const uint64_t before = seed;
+                make_short(&seed, samples, pattern, (wiggly_mode)(kind % 3), (wiggly_start)(kind / 3));
+                compare_short(before, &tally);
+            }
+        }
+    }
+    assert_true(tally.solved > quick_or_all(3000, 13000) && tally.lapack > quick_or_all(1500, 7000));
+}
+
+TEST(random_patterns_to_40_samples)
+{
+    struct tally tally = {0};
+    uint64_t seed = 2;
+    for (int samples = 11; samples <= SHORT; samples++) {
+        for (int n = 0; n < quick_or_all(100, 500); n++) {
+            uint64_t before = seed, pattern = 0;
+            double density = uniform(&seed);
+            for (int i = 0; i < samples; i++) pattern |= (uint64_t)(uniform(&seed) < density * density) << i;
+            wiggly_mode mode = (wiggly_mode)pick(&seed, 3);
+            make_short(&seed, samples, pattern, mode, (wiggly_start)pick(&seed, 3));
+            compare_short(before, &tally);
+        }
+    }
+    assert_true(tally.solved > quick_or_all(1900, 9500) && tally.lapack > quick_or_all(1100, 5500));
+}
+
+// --- long domains and long gaps --------------------------------------------------------------------------------------
+
+/// A spline of the paper's filter, with knots that far apart.
+struct subject {
+    double frequency, damping, bandwidth, calm;
+    int samples, gap;
+    bool slopes, irregular;
+    wiggly_mode mode;
+    bool
+        is_lost; ///< so calm a start over gaps so long that the nodes' own system loses digits: shown, and said not to be exact
+    double most; ///< its error
+};
+
+static void make_long(const struct subject *c)
+{
+    begin(c->samples, c->mode, WIGGLY_FREE);
+    desc.passive = WIGGLY_FILTER;
+    desc.frequency.value = c->frequency;
+    desc.damping.value = c->damping;
+    desc.bandwidth.value = c->bandwidth;
+    desc.calm = c->calm;
+    for (int i = 2; i < c->samples - 1; i += c->gap) {
+        const int n = desc.knot_count, sample = c->irregular ? i + (n * n * 7) % (c->gap / 2) : i;
+        wiggly_knot *knot = add_knot(sample < c->samples - 1 ? sample : c->samples - 2, cos(2.3 * n));
+        knot->has_slope = c->slopes && n % 2;
+        knot->slope = 0.2;
+        knot->stiffness = 100;
+    }
+}
+
+static void check_long(const struct subject *c)
+{
+    // Undamped, without bandwidth, with knots at whole periods: only the start holds Im x, and it amplifies the rounding of the poles.
+    const bool is_hard = c->mode != WIGGLY_CUBIC && c->damping == 0 && c->bandwidth == 0;
+    struct demand demand = {.tolerance = c->mode == WIGGLY_CUBIC ? 1e-9 : 1e-8, .may_be_inexact = is_hard};
+    make_long(c);
+    assert_true(find_exact());
+    if (c->is_lost) demand.may_be_inexact = true;
+    judge("spline of samples", c->samples, &demand);
+    if (c->is_lost) {
+        assert_int_equal(answers[USUAL].status, WIGGLY_INEXACT);
+        assert_near(answers[USUAL].error, 0, c->most);
+    }
+    print_message("mode %d f %-6g zeta %-4g beta %-4g %6d samples, gap %6d: %.1e, %d sweeps\n", c->mode, c->frequency,
+                  c->damping, c->bandwidth, c->samples, c->gap, answers[USUAL].error, answers[USUAL].sweeps);
+}
+
+TEST(every_mode_at_every_length)
+{
+    enum { LENGTHS = 6 };
+    static const int lengths[LENGTHS][2] = {{240, 24},     {3000, 100},   {10000, 24},
+                                            {10000, 9000}, {30000, 1000}, {100000, 30000}};
+    static const struct subject modes[] = {
+        {.mode = WIGGLY_CUBIC, .calm = 1},
+        {.mode = WIGGLY_REAL, .frequency = 1, .damping = 0.05, .calm = 1},
+        {.mode = WIGGLY_REAL, .frequency = 0.003, .damping = 1.4, .calm = 0.2},
+        {.frequency = 1, .damping = 0.05, .bandwidth = 0.1, .calm = 1},
+        {.frequency = 2, .bandwidth = 0, .calm = 1},
+    };
+    for (size_t m = 0; m < sizeof modes / sizeof *modes; m++) {
+        for (size_t l = 0; l < (size_t)quick_or_all(4, LENGTHS); l++) {
+            struct subject c = modes[m];
+            c.samples = lengths[l][0], c.gap = lengths[l][1];
+            c.irregular = l % 2, c.slopes = m % 2;
+            check_long(&c);
+        }
+    }
+}
+
+/// So slow that the imaginary rows matter, which the chain leaves out of faster ones; and hardly held.
+TEST(slow_and_lost_splines)
+{
+    static const struct subject subjects[] = {
+        {0.1, 0.05, 0.1, 1, 500, .gap = 60},
+        {0.1, 0.05, 0.1, 1, 990, .gap = 900},
+        {0.002, 0.05, 0.1, 1, 10000, .gap = 3000},
+        {0.0005, 0, 0.3, 0.5, 30000, .gap = 14000},
+        {0.0002, 0.02, 0, 1, 100000, .gap = 30000, .irregular = true},
+        {0, 0, 0, 1, 20000, .gap = 9000, .slopes = true},
+        {0.775, 0.05, 0.1, 1, 240, .gap = 60}, // just fast enough
+        {0.775, 0, 0, 1, 240, .gap = 150},
+        {0.775, 0, 0, 1e-3, 240, .gap = 31},
+        {0.7, 0.1, 0.1, 1e-25, 3000, .gap = 300, .is_lost = true, .most = 1e-8},
+        {0.2, 0, 0.1, 1e-10, 1500, .gap = 400, .is_lost = true, .most = 1e-4},
+        {0.2, 0.3, 0, 1e-20, 1205, .gap = 415, .is_lost = true, .most = 1e-4},
+        {0.2, 0, 0.3, 1e-20, 1200, .gap = 1000, .is_lost = true, .most = 1e-2},
+    };
+    for (size_t s = 0; s < sizeof subjects / sizeof *subjects; s++) {
+        if (is_thorough() || subjects[s].samples <= 10000) check_long(&subjects[s]);
+    }
+}
+
+/// A long spline that is meant to be hard: hardly damped, its start held by next to nothing, knots far apart or close together.
+static struct subject some_subject(uint64_t seed)
+{
+    static const double dampings[] = {0, 0, 1e-4, 1e-2, 0.1}, bandwidths[] = {0, 0, 1e-3, 0.1, 1};
+    for (int i = 0; i < 40; i++) uniform(&seed);
+    struct subject c = {.mode = uniform(&seed) < 0.2 ? WIGGLY_REAL : WIGGLY_COMPLEX};
+    c.samples = 1001 + (int)(2000 * uniform(&seed));
+    c.frequency = 24 * pow(10, -2 + 4 * uniform(&seed)) / (c.samples - 1);
+    c.damping = dampings[(int)(5 * uniform(&seed))];
+    c.bandwidth = bandwidths[(int)(5 * uniform(&seed))];
+    c.calm = uniform(&seed) < 0.3 ? 1 : pow(10, -12 * uniform(&seed));
+    c.gap = 4 + (int)(c.samples * pow(10, -2.5 + 2 * uniform(&seed)));
+    c.slopes = uniform(&seed) < 0.3;
+    c.irregular = uniform(&seed) < 0.5;
+    return c;
+}
+
+TEST(no_long_spline_is_called_exact_that_is_not)
+{
+    static const struct demand demand = {.tolerance = 1e-8, .may_be_inexact = true};
+    int solved = 0;
+    const int subjects = quick_or_all(40, 200);
+    for (int seed = 0; seed < subjects; seed++) {
+        const struct subject c = some_subject((uint64_t)seed);
+        make_long(&c);
+        assert_true(find_exact());
+        judge("the long spline of seed", seed, &demand);
+        solved += answers[USUAL].status == WIGGLY_OK;
+    }
+    assert_in_range(solved, subjects * 8 / 10, subjects);
+}
+
+// --- what the squared matrix cannot settle ---------------------------------------------------------------------------
+
+static const struct demand inexact_at_worst = {.tolerance = 1e-8, .may_be_inexact = true};
+
+/// Two poles near each other and undamped: in the frame that turns with them a gap bends as a cubic's, though it swings, and no pivot shows it.
+TEST(undamped_bands_over_long_gaps)
+{
+    static const wiggly_knot
+        nodes[] = {{.sample = 16, .value = -0.41},
+                   {.sample = 116, .value = 1.13},
+                   {.sample = 216, .value = -1.23},
+                   {.sample = 316, .value = -0.3, .has_slope = true, .slope = -1.4, .stiffness = 76}},
+        poses[] = {{.sample = 0, .has_phase = true}, {.sample = 1200, .value = 1, .has_phase = true, .phase = 0.3}};
+    for (int i = 0; i < 1241; i++) tracks[0][i] = 1.2 + 0.3 * sin(0.002 * i);
+    for (int kind = 0; kind < 8; kind++) {
+        begin(kind % 2 ? 1241 : 317, WIGGLY_COMPLEX, WIGGLY_FREE);
+        desc.step = 1.0 / 60;
+        desc.knots = kind % 2 ? poses : nodes, desc.knot_count = kind % 2 ? 2 : 4;
+        desc.frequency.value = 1.2;
+        if (kind / 2 % 2) desc.frequency.track = tracks[0];
+        desc.damping.value = kind / 4 * 1e-3;
+        desc.bandwidth.value = kind % 2 ? 0.02 : 0;
+        desc.calm = kind % 2 ? 1 : 0.13;
+        assert_true(find_exact());
+        judge("the undamped band", kind, &inexact_at_worst);
+    }
+}
+
+/// A frequency that rises from 0, and knots hundreds of samples apart: the worst that a knot-free stretch can be.
+TEST(a_track_from_0_over_long_gaps)
+{
+    for (int i = 0; i < 961; i++) tracks[0][i] = 5.0 * i / 960;
+    for (int kind = 0; kind < 4; kind++) {
+        begin(961, (wiggly_mode)(kind % 2), WIGGLY_FREE);
+        desc.passive = (wiggly_passive)(kind / 2);
+        desc.frequency.track = tracks[0];
+        desc.damping.value = 0.1;
+        *add_knot(0, 0.5) = (wiggly_knot){.sample = 0, .value = 0.5, .has_slope = true, .stiffness = 1000};
+        add_knot(200, 1);
+        add_knot(600, 0);
+        assert_true(find_exact());
+        judge("the track from 0", kind, &inexact_at_worst);
+    }
+}
+
+/// A frequency that rests at 0 between its waves, and one knot: what the squared matrix cannot settle is left to the rows, and a start
+/// that nothing determines is calmed.
+TEST(a_track_that_rests_at_0)
+{
+    for (int i = 0; i < 1500; i++) tracks[0][i] = fmax(0, sin(0.01 * i));
+    for (int is_calmed = 0; is_calmed < 2; is_calmed++) {
+        begin(1500, is_calmed ? WIGGLY_COMPLEX : WIGGLY_REAL, WIGGLY_FREE);
+        desc.step = 1.0 / 30;
+        desc.passive = is_calmed ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
+        desc.calm = is_calmed ? 0 : 1e-11;
+        desc.frequency.track = tracks[0];
+        desc.damping.value = 0.8;
+        add_knot(10, 1);
+        solve(BAND);
+        assert_int_equal(answers[BAND].status, is_calmed ? WIGGLY_CALMED : WIGGLY_OK);
+    }
+}
+
+TEST(gaps_of_every_length)
+{
+    for (int gap = 2; gap <= 800; gap *= 2) {
+        for (int kind = 0; kind < 18; kind++) {
+            begin(2000, (wiggly_mode)(kind % 3), (wiggly_start)(kind / 3 % 3));
+            desc.frequency.value = kind < 9 ? 0.1 : 2;
+            desc.damping.value = 0.1;
+            for (int i = 5; i < desc.samples - 1; i += gap) add_knot(i, sin(0.7 * i));
+            assert_true(find_exact());
+            judge("the gap of", gap, &inexact_at_worst);
+        }
+    }
+}
+
+/// One to two periods in all, where the imaginary rows pull on the chain's nodes: with slopes, knots side by side, pairs at the end,
+/// samples that run free.
+TEST(the_chain_of_one_or_two_periods)
+{
+    static const struct demand demand = {.tolerance = 1e-9};
+    for (int kind = 0; kind < 240; kind++) {
+        begin(100 + 3 * kind, WIGGLY_COMPLEX, (wiggly_start)(kind % 3));
+        desc.passive = (wiggly_passive)(kind / 3 % 2);
+        desc.damping.value = kind % 11 < 5 ? 0 : 0.02 * (kind % 11);
+        desc.bandwidth.value = kind % 7 < 3 ? 0 : 0.05 * (kind % 7);
+        desc.calm = 0.05 + 0.1 * (kind % 9);
+        const int gap = desc.samples / (2 + kind % 20);
+        for (int i = 0; i < desc.samples - 3; i += gap) {
+            const bool slope = kind % 5 == 0 && desc.knot_count % 3 == 1;
+            *add_knot(i, 0) = (wiggly_knot){
+                .sample = i, .value = sin(0.7 * i), .has_slope = slope, .slope = 3, .stiffness = 1 + kind};
+            if (kind % 4 == 0) add_knot(i + 1, sin(0.7 * i) + 0.01 * (kind % 3));
+        }
+        add_knot(desc.samples - 1 - (desc.start == WIGGLY_LOOP), 1);
+        desc.frequency.value = (1.0 + (kind % 10) / 11.0) / ((desc.samples - 1) * desc.step);
+        solvers[USUAL]->chain.im_weight = 0;
+        assert_true(find_exact());
+        judge("of one or two periods", kind, &demand);
+        if (kind % 4 > 0 && desc.start != WIGGLY_LOOP) assert_true(solvers[USUAL]->chain.im_weight > 0);
+    }
+}
+
+static int create(void **state)
+{
+    (void)state;
+    for (int w = 0; w < WAYS; w++) {
+        const int most = quick_or_all(20000, MOST);
+        if (wiggly_create(most, most, &solvers[w]) != WIGGLY_OK) return -1;
+        wiggly_set_method(solvers[w], w == USUAL ? WIGGLY_CHAIN : WIGGLY_BAND);
+    }
+    solvers[ROWS]->longest_squared = 2;
+    return 0;
+}
+
+static int destroy(void **state)
+{
+    (void)state;
+    for (int w = 0; w < WAYS; w++) wiggly_destroy(solvers[w]);
+    return 0;
+}
+
+TESTS_BETWEEN(create, destroy)
