@@ -317,49 +317,6 @@ static void make_swinging(struct layout *l)
     }
 }
 
-/// The bits are those of the description alone, whatever was solved before and whichever arrays are asked for.
-TEST(bits_do_not_depend_on_the_way)
-{
-    struct layout l;
-    static double alone[SAMPLES], dragged[SAMPLES];
-    make_swinging(&l);
-    memcpy(dragged, total, sizeof dragged);
-    for (int step = 40; step >= 0; step--) {
-        const double value = l.knots[1].value;
-        l.knots[1].value *= 1 - step / 60.0;
-        solve(&l);
-        l.knots[1].value = value;
-    }
-    assert_memory_equal(total, dragged, 240 * sizeof *total);
-    wiggly_curve only = {.size = sizeof only, .total = alone};
-    assert_int_equal(wiggly_solve(solver, &l.desc, &only), WIGGLY_OK);
-    assert_memory_equal(alone, dragged, 240 * sizeof *total);
-}
-
-/// Knots in another order are the same knots, also where one plain solve is not exact enough and all is solved again: slow, and far
-/// from the equilibrium.
-TEST(knots_need_no_order)
-{
-    static double ordered[SAMPLES];
-    int again = 0;
-    for (unsigned n = 0; n < 20; n++) {
-        struct layout l;
-        make_layout(&l, n, WIGGLY_COMPLEX, 240, 1.0 / 24);
-        l.desc.frequency.value *= 0.04;
-        l.desc.equilibrium.value = 20;
-        for (int k = 0; k < l.desc.knot_count; k++) l.knots[k].has_slope = true, l.knots[k].stiffness = 1000;
-        l.desc.high = 1.3 * l.largest, l.desc.has_high = true;
-        wiggly_status status = wiggly_solve(solver, &l.desc, &curve);
-        memcpy(ordered, total, sizeof ordered);
-        again += curve.refinements > 0;
-        const wiggly_knot first = l.knots[0];
-        l.knots[0] = l.knots[2], l.knots[2] = l.knots[1], l.knots[1] = first;
-        assert_int_equal(wiggly_solve(solver, &l.desc, &curve), status);
-        assert_memory_equal(total, ordered, 240 * sizeof *total);
-    }
-    assert_true(again > 0);
-}
-
 /// Without a knot nothing but the equilibrium's motion moves it, and a limit stops that.
 TEST(what_moves_by_itself_is_limited_too)
 {

@@ -3,7 +3,6 @@
 #include "near.h"
 
 #include "curve.h"
-#include <limits.h>
 
 enum { MAX = 512 };
 
@@ -20,39 +19,6 @@ static wiggly_desc describe(int samples, wiggly_mode mode, wiggly_start start, c
     desc.knots = knots;
     desc.knot_count = count;
     return desc;
-}
-
-TEST(knots_are_hit_to_the_bit)
-{
-    const wiggly_knot knots[] = {
-        {.sample = 3, .value = 0.1}, {.sample = 40, .value = 1.0 / 3}, {.sample = 77, .value = -1e-3}};
-    double wave[100];
-    for (int i = 0; i < 100; i++) wave[i] = sin(0.1 * i);
-    wiggly_desc desc = describe(100, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 3);
-    desc.equilibrium.track = wave;
-    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
-    for (int k = 0; k < 3; k++) assert_true(curve.total[knots[k].sample] == knots[k].value);
-}
-
-TEST(before_the_first_knot_x_is_held)
-{
-    const wiggly_knot knots[] = {{.sample = 10, .value = 1}, {.sample = 40, .value = 0}};
-    wiggly_desc desc = describe(60, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 2);
-    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
-    for (int i = 0; i < 10; i++) {
-        assert_true(curve.re[i] == curve.re[10] && curve.im[i] == curve.im[10]);
-    }
-    assert_int_equal(curve.first, 10);
-}
-
-TEST(nothing_keyed_is_the_equilibrium)
-{
-    for (int start = 0; start < 3; start++) {
-        wiggly_desc desc = describe(50, WIGGLY_COMPLEX, (wiggly_start)start, NULL, 0);
-        desc.equilibrium.value = 0.7;
-        assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
-        for (int i = 0; i < 50; i++) assert_true(curve.total[i] == 0.7 && curve.im[i] == 0);
-    }
 }
 
 TEST(one_knot_of_a_cubic_is_a_constant)
@@ -169,22 +135,6 @@ TEST(a_thrown_cubic_is_said)
     }
 }
 
-TEST(a_loop_closes)
-{
-    const wiggly_knot knots[] = {{.sample = 10, .value = 1}, {.sample = 70, .value = -0.5}};
-    for (int mode = 0; mode < 3; mode++) {
-        wiggly_desc desc = describe(121, (wiggly_mode)mode, WIGGLY_LOOP, knots, 2);
-        assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
-        assert_true(curve.total[120] == curve.total[0] && curve.im[120] == curve.im[0]);
-        // The step over the seam is no larger than its neighbours' steps.
-        double seam = curve.total[1] - curve.total[119], before = curve.total[119] - curve.total[117],
-               after = curve.total[3] - curve.total[1];
-        assert_true(seam >= fmin(before, after) - 1e-3 && seam <= fmax(before, after) + 1e-3);
-        wiggly_value end = wiggly_evaluate(&curve, 120.25), start = wiggly_evaluate(&curve, 0.25);
-        assert_true(end.re == start.re && end.im == start.im);
-    }
-}
-
 TEST(between_samples_a_free_oscillation_is_followed)
 {
     const wiggly_knot knot = {.sample = 0, .value = 1};
@@ -285,24 +235,6 @@ TEST(wrong_descriptions_are_named_and_leave_the_curve_alone)
     assert_int_equal(wiggly_solve(solver, &ok, &unsized), WIGGLY_ERROR_SIZE);
 }
 
-/// What a caller of a later version hands over is understood as long as it asks for nothing that this one lacks.
-TEST(a_later_description_counts_where_its_new_members_are_0)
-{
-    const wiggly_knot knots[] = {{.sample = 3, .value = 1}, {.sample = 30, .value = -1}};
-    struct later {
-        wiggly_desc desc;
-        double more;
-    } later = {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 2), 0};
-    static double total[50];
-    wiggly_curve own = {.size = sizeof own, .total = total};
-    assert_int_equal(wiggly_solve(solver, &later.desc, &curve), WIGGLY_OK);
-    later.desc.size = sizeof later;
-    assert_int_equal(wiggly_solve(solver, &later.desc, &own), WIGGLY_OK);
-    assert_memory_equal(total, curve.total, sizeof total);
-    later.more = 1;
-    assert_int_equal(wiggly_solve(solver, &later.desc, &own), WIGGLY_ERROR_SIZE);
-}
-
 /// What zeroes mean is what the numbers beside them in the header mean.
 TEST(a_description_of_zeroes_is_valid)
 {
@@ -339,92 +271,6 @@ TEST(every_status_has_a_text_of_its_own)
         }
     }
     assert_non_null(wiggly_status_text((wiggly_status)-1));
-}
-
-/// A game's vertices: with no array of doubles at all, on every way of solving, and what lies between them is left alone.
-TEST(the_total_comes_as_floats)
-{
-    enum { SAMPLES = 50, STRIDE = 3 };
-    const wiggly_knot knots[] = {{.sample = 5, .value = 0.1}, {.sample = 40, .value = 2}};
-    double wave[SAMPLES], slow[SAMPLES];
-    for (int i = 0; i < SAMPLES; i++) wave[i] = sin(0.1 * i), slow[i] = 1 + 0.01 * i;
-    for (int n = 0; n < 3 * 3 * 2 * 3; n++) {
-        wiggly_desc desc = describe(SAMPLES, (wiggly_mode)(n % 3), (wiggly_start)(n / 3 % 3), knots, n / 18);
-        if (n / 9 % 2) desc.equilibrium.track = wave, desc.frequency.track = slow;
-        float out[SAMPLES * STRIDE], close[SAMPLES];
-        for (int i = 0; i < SAMPLES * STRIDE; i++) out[i] = -77;
-        wiggly_curve strided = {.size = sizeof strided, .floats = out, .stride = STRIDE},
-                     plain = {.size = sizeof plain, .floats = close};
-        wiggly_status status = wiggly_solve(solver, &desc, &curve);
-        assert_true(status < WIGGLY_ERROR_ARGUMENT);
-        assert_int_equal(wiggly_solve(solver, &desc, &strided), status);
-        assert_int_equal(wiggly_solve(solver, &desc, &plain), status);
-        for (int i = 0; i < SAMPLES; i++) {
-            assert_true(out[STRIDE * i] == (float)curve.total[i] && close[i] == out[STRIDE * i]);
-            assert_true(out[STRIDE * i + 1] == -77 && out[STRIDE * i + 2] == -77);
-        }
-        desc.calm = 2;
-        out[0] = 5;
-        assert_int_equal(wiggly_solve(solver, &desc, &strided), WIGGLY_ERROR_NUMBER);
-        assert_true(out[0] == 5);
-    }
-}
-
-TEST(memory_may_be_the_callers)
-{
-    assert_int_equal(wiggly_memsize(0, 0), 0);
-    assert_int_equal(wiggly_memsize(10, -1), 0);
-    assert_true(wiggly_memsize(10, INT_MAX) > wiggly_memsize(10, INT_MAX - 1));
-    size_t size = wiggly_memsize(60, 4);
-    double *memory = malloc(size);
-    wiggly_solver *mine = NULL;
-    assert_int_equal(wiggly_create_at(memory, size - 1, 60, 4, &mine), WIGGLY_ERROR_MEMORY);
-    assert_int_equal(wiggly_create_at((char *)memory + 1, size, 60, 4, &mine), WIGGLY_ERROR_ARGUMENT);
-    assert_int_equal(wiggly_create_at(memory, size, 60, 4, &mine), WIGGLY_OK);
-    const wiggly_knot knots[] = {{.sample = 0, .value = 1},
-                                 {.sample = 30, .value = 0, .has_slope = true, .stiffness = 5},
-                                 {.sample = 31, .value = 0.1, .has_slope = true, .stiffness = 5},
-                                 {.sample = 58, .value = 0.2, .has_slope = true, .stiffness = 5}};
-    for (int start = 0; start < 3; start++) {
-        wiggly_desc desc = describe(60, WIGGLY_COMPLEX, (wiggly_start)start, knots, 4);
-        assert_int_equal(wiggly_solve(mine, &desc, &curve), WIGGLY_OK);
-        wiggly_curve other = curve_create(MAX);
-        assert_int_equal(wiggly_solve(solver, &desc, &other),
-                         WIGGLY_OK); // a larger solver with a past gives the same bits
-        assert_memory_equal(other.total, curve.total, 60 * sizeof(double));
-        assert_memory_equal(other.im, curve.im, 60 * sizeof(double));
-        curve_destroy(&other);
-    }
-    wiggly_destroy(mine);
-    free(memory);
-}
-
-/// A solver that has just solved nearly the same spline uses what it kept: not a bit may differ from a fresh one.
-TEST(what_is_kept_changes_no_bit)
-{
-    wiggly_knot knots[] = {{.sample = 0, .value = 0.3, .has_slope = true, .slope = 1, .stiffness = 50},
-                           {.sample = 30, .value = 1},
-                           {.sample = 31, .value = 1.1},
-                           {.sample = 80, .value = -0.4, .has_slope = true, .slope = -2, .stiffness = 9},
-                           {.sample = 110, .value = 0}};
-    wiggly_curve other = curve_create(MAX);
-    for (int edit = 0; edit < 60; edit++) {
-        wiggly_desc desc =
-            describe(120, (wiggly_mode)(edit / 6 % 3), edit / 18 % 2 ? WIGGLY_REST : WIGGLY_FREE, knots, 5);
-        wiggly_knot *knot = &knots[edit % 5];
-        if (edit % 6 < 4) knot->value += 0.37; // most edits change values alone
-        if (edit % 6 == 4) knot->sample++;
-        if (edit % 6 == 5) knot->has_slope = !knot->has_slope, knot->stiffness = 3;
-        if (edit % 7 == 6) desc.frequency.value = 1.3;
-        knots[2].sample = knots[1].sample + 1;
-        wiggly_solver *fresh = NULL;
-        assert_int_equal(wiggly_create(200, 8, &fresh), WIGGLY_OK);
-        assert_int_equal(wiggly_solve(solver, &desc, &curve), wiggly_solve(fresh, &desc, &other));
-        assert_memory_equal(other.total, curve.total, 120 * sizeof(double));
-        assert_memory_equal(other.im, curve.im, 120 * sizeof(double));
-        wiggly_destroy(fresh);
-    }
-    curve_destroy(&other);
 }
 
 /// Twice the frequency, sample rate and stiffness on the same samples is the same curve (docs/mathematics.md, Poles).

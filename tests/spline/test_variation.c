@@ -74,22 +74,6 @@ TEST(knots_are_hit_and_the_rest_is_another)
     }
 }
 
-/// A seed alone is nothing, and neither are variations of what does not vary.
-TEST(without_one_the_bits_are_the_same)
-{
-    struct solved plain, seeded;
-    wiggly_desc desc = varied(0, 0);
-    solve(&plain, &desc, WIGGLY_CHAIN);
-    desc.variation_seed = 99;
-    solve(&seeded, &desc, WIGGLY_CHAIN);
-    assert_memory_equal(plain.total, seeded.total, sizeof(double) * 241);
-    desc.mode = WIGGLY_CUBIC;
-    solve(&plain, &desc, WIGGLY_CHAIN);
-    desc.variation = 1;
-    solve(&seeded, &desc, WIGGLY_CHAIN);
-    assert_memory_equal(plain.total, seeded.total, sizeof(double) * 241);
-}
-
 TEST(loops_close)
 {
     struct solved s;
@@ -159,46 +143,4 @@ TEST(their_mean_is_the_spline)
         for (int i = 0; i < 241; i++) mean[i] += s.total[i] / SEEDS;
     }
     assert_true(apart(mean, plain.total, 0, 241) < 0.2);
-}
-
-TEST(before_the_first_knot_nothing_stirs)
-{
-    struct solved s;
-    wiggly_desc desc = varied(7, 1);
-    solve(&s, &desc, WIGGLY_CHAIN);
-    for (double at = 0; at < 9; at += 0.3) {
-        const wiggly_value value = wiggly_evaluate(&s.curve, at);
-        assert_near(value.y + value.re, keys[0].value, 1e-12);
-    }
-}
-
-TEST(limits_hold)
-{
-    struct solved s;
-    for (int seed = 0; seed < 20; seed++) {
-        wiggly_desc desc = varied(seed, 1);
-        desc.low = -0.6, desc.high = 1.02, desc.has_low = desc.has_high = true;
-        solve(&s, &desc, WIGGLY_CHAIN);
-        for (int i = 0; i < 241; i++) assert_true(s.total[i] >= -0.6 && s.total[i] <= 1.02);
-        for (int k = 0; k < KEYS; k++) assert_true(s.total[keys[k].sample] == keys[k].value);
-    }
-}
-
-/// In a batch, as by itself.
-TEST(a_batch_has_the_same_bits)
-{
-    enum { COUNT = 37 };
-    static struct solved many[COUNT], one;
-    static wiggly_desc descs[COUNT];
-    static wiggly_curve curves[COUNT];
-    wiggly_batch *batch;
-    assert_int_equal(wiggly_batch_create(241, KEYS, 2, &batch), WIGGLY_OK);
-    for (int i = 0; i < COUNT; i++) descs[i] = varied(i, i % 5 ? 0.4 : 0), curves[i] = rows_of(&many[i]);
-    assert_int_equal(wiggly_batch_solve(batch, descs, curves, NULL, COUNT), WIGGLY_OK);
-    for (int i = 0; i < COUNT; i++) {
-        solve(&one, &descs[i], WIGGLY_CHAIN);
-        assert_memory_equal(one.total, many[i].total, sizeof(double) * 241);
-        assert_memory_equal(one.im, many[i].im, sizeof(double) * 241);
-    }
-    wiggly_batch_destroy(batch);
 }

@@ -108,28 +108,6 @@ TEST(an_edit_changes_nothing_before_its_gap)
     wiggly_destroy(kept);
 }
 
-/// Every kind of knot is met to the bit; a loop closes.
-TEST(knots_are_met)
-{
-    static struct layout l;
-    static struct solved s;
-    wiggly_solver *solver = solver_of(SAMPLES, KNOTS);
-    for (int round = 0; round < ROUNDS; round++) {
-        make(&l, (uint64_t)round);
-        l.desc.start = (wiggly_start)(round % 3);
-        solve(solver, &l, &s);
-        for (int k = 0; k < KNOTS; k++) {
-            const wiggly_knot *knot = &l.knots[k];
-            if (!knot->still) assert_true(s.total[knot->sample] == knot->value);
-            if (knot->settles) assert_near(s.re[knot->sample], 0, 1e-12);
-            if (knot->has_phase) assert_near(s.im[knot->sample], knot->phase, 1e-12);
-        }
-        if (l.desc.start == WIGGLY_LOOP)
-            assert_true(s.total[0] == s.total[SAMPLES - 1] && s.im[0] == s.im[SAMPLES - 1]);
-    }
-    wiggly_destroy(solver);
-}
-
 /// It settles where the last settling knot is, after it has overshot.
 TEST(the_motion_stays_where_it_settles)
 {
