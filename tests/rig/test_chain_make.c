@@ -1,30 +1,11 @@
 /// Chains made for a character of somebody's: names, splines and channels that suit it, motion that follows its clip, one step to undo.
 #include "gltf_builder.h"
-#include "rig/import.h"
-#include "scene/edit.h"
-#include "scene/history.h"
+#include "stand.h"
 
 static const char dog[] = "assets/models/dog.glb";
 
-/// The dog's own scene, with a history whose step is open.
-struct stand {
-    struct opened opened;
-    struct history *history;
-};
-
-static void open_stand(struct stand *stand)
-{
-    assert_done(opened_read(&stand->opened, dog, &error));
-    stand->history = history_create(stand->opened.document);
-    history_begin(stand->history, "Make chain", 0);
-}
-
-static void close_stand(struct stand *stand)
-{
-    if (history_is_open(stand->history)) history_end(stand->history);
-    history_destroy(stand->history);
-    opened_free(&stand->opened);
-}
+/// Of the dog's own scene, in a step that is open.
+#define DOG_TEST(name) STAND_TEST(name, (stand_open(stand, dog), stand_begin(stand)))
 
 static const struct chain *make_with_lag(struct stand *stand, const char *from, bool follows, double lag)
 {
@@ -73,9 +54,7 @@ TEST(test_a_character_of_any_size_fits_the_stage)
     }
 }
 
-#define STAND_TEST(name) TEST_OF(struct stand, stand, open_stand(stand), close_stand(stand), name)
-
-STAND_TEST(test_a_chosen_clip_gives_the_scene_its_length)
+DOG_TEST(test_a_chosen_clip_gives_the_scene_its_length)
 {
     const struct knot knot = {.frame = 20, .value = 1, .stiffness = 1};
     const struct gltf *gltf = &models_imported(stand->opened.models, stand->opened.document, 0)->gltf;
@@ -91,7 +70,7 @@ STAND_TEST(test_a_chosen_clip_gives_the_scene_its_length)
     assert_int_equal(stand->opened.document->last_frame, 120); // knots keep their frames
 }
 
-STAND_TEST(test_a_tail_swings_with_the_walk_and_loops)
+DOG_TEST(test_a_tail_swings_with_the_walk_and_loops)
 {
     const struct chain *tail = make(stand, "tail_1", true);
     assert_string_equal(tail->to, "tail_8");
@@ -123,7 +102,7 @@ static double tip_off(const struct stand *stand, int sample)
 }
 
 /// For a tail that points to the back, side × along is -x; its spline is in metres that way.
-STAND_TEST(test_the_tip_moves_as_far_as_its_spline)
+DOG_TEST(test_the_tip_moves_as_far_as_its_spline)
 {
     double most = 0;
     make_with_lag(stand, "tail_1", true, 1e-6);
@@ -136,7 +115,7 @@ STAND_TEST(test_the_tip_moves_as_far_as_its_spline)
     assert_true(most > 0.05);
 }
 
-STAND_TEST(test_ears_share_splines)
+DOG_TEST(test_ears_share_splines)
 {
     make(stand, "ear_1_L", false);
     const int splines = stand->opened.document->spline_count;
@@ -147,7 +126,7 @@ STAND_TEST(test_ears_share_splines)
     assert_int_equal(right->channels[0].spline, splines - 2);
 }
 
-STAND_TEST(test_ears_may_have_splines_of_their_own)
+DOG_TEST(test_ears_may_have_splines_of_their_own)
 {
     int rig;
     make(stand, "ear_1_L", true);
@@ -160,7 +139,7 @@ STAND_TEST(test_ears_may_have_splines_of_their_own)
     assert_false(document->rigs[rig]->chain.mirror);
 }
 
-STAND_TEST(test_undo_takes_all_of_it_back)
+DOG_TEST(test_undo_takes_all_of_it_back)
 {
     make(stand, "tail_1", true);
     history_end(stand->history);
@@ -171,7 +150,7 @@ STAND_TEST(test_undo_takes_all_of_it_back)
     assert_int_equal(stand->opened.document->spline_count, 2);
 }
 
-STAND_TEST(test_what_cannot_be_a_chain)
+DOG_TEST(test_what_cannot_be_a_chain)
 {
     int rig;
     const struct chain_wish wishes[] = {{.from = "chest"}, {.from = "tail_8", .to = "tail_1"}, {.from = "wing"}};

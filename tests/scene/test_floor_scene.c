@@ -1,19 +1,13 @@
 /// A character's floor: no vertex below it at any sample, knots and pins met as ever, whatever was edited before.
 #include "documents.h"
-
-#include "base/file.h"
-#include "model/figure.h"
-#include "rig/import.h"
-#include "scene/edit.h"
-#include "scene/history.h"
-#include "scene/load.h"
+#include "stand.h"
 #include "temporary.h"
 
 /// `more` is of the character, `spline` of the one that moves it up.
-static bool read_scene(struct opened *opened, const char *start, const char *knots, const char *spline,
-                       const char *more, struct error *error)
+static struct stand open_with(const char *start, const char *knots, const char *spline, const char *more)
 {
     char text[8192], folder[PATH_LIMIT];
+    struct stand stand = {0};
     if (!realpath("assets/models", folder)) fail_msg("no assets");
     snprintf(text, sizeof text,
              "{ \"wiggly\": 1, \"fps\": 24, \"frames\": [0, 120], \"splines\": ["
@@ -23,22 +17,21 @@ static bool read_scene(struct opened *opened, const char *start, const char *kno
              "\"coordinates\": [ { \"name\": \"up\", \"spline\": \"up\" }, { \"name\": \"side\", \"spline\": "
              "\"side\" } ]%s } ] }",
              start, knots, spline, start, folder, more);
-    return opened_read(opened, temporary_file("floor.json", text, strlen(text)), error);
+    stand_open(&stand, temporary_file("floor.json", text, strlen(text)));
+    stand_solve(&stand);
+    return stand;
 }
 
-static struct opened open_scene(const char *start, const char *knots, const char *more)
+static struct stand open_scene(const char *start, const char *knots, const char *more)
 {
-    struct opened opened;
-    assert_done(read_scene(&opened, start, knots, "", more, &error));
-    opened_solve(&opened, SOLVER_BY_LENGTH);
-    return opened;
+    return open_with(start, knots, "", more);
 }
 
-static double lowest(const struct opened *opened, int sample)
+static double lowest(const struct stand *stand, int sample)
 {
     struct rig_pose pose;
     double low = INFINITY;
-    const struct posing posing = opened_posing(opened);
+    const struct posing posing = opened_posing(&stand->opened);
     assert_true(rig_pose(&posing, 0, sample, NULL, &pose));
     const struct figure *figure = pose.character.figure;
     for (int v = 0; v < figure->character.vertex_count; v++) {
@@ -49,15 +42,6 @@ static double lowest(const struct opened *opened, int sample)
     return low;
 }
 
-static void check_knots(const struct opened *opened)
-{
-    const struct spline *spline = opened->document->splines[0];
-    for (int k = 0; k < spline->knot_count; k++) {
-        const int sample = document_sample(opened->document, spline->knots[k].frame);
-        assert_near(opened->evaluation.curves[0].total[sample], spline->knots[k].value, 1e-9);
-    }
-}
-
 TEST(nothing_is_below_the_floor)
 {
     static const char *const starts[] = {"free", "loop", "rest"};
@@ -65,32 +49,32 @@ TEST(nothing_is_below_the_floor)
         "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }, { \"frame\": 40, \"value\": 2 }";
     for (int s = 0; s < 3; s++) {
         double before = INFINITY;
-        struct opened free_to_go = open_scene(starts[s], knots, ""),
-                      kept = open_scene(starts[s], knots, ", \"floor\": 0");
-        for (int i = 0; i < kept.evaluation.samples; i++) {
+        struct stand free_to_go = open_scene(starts[s], knots, ""),
+                     kept = open_scene(starts[s], knots, ", \"floor\": 0");
+        for (int i = 0; i < kept.opened.evaluation.samples; i++) {
             before = fmin(before, lowest(&free_to_go, i));
             assert_true(lowest(&kept, i) > -3e-5);
         }
         assert_true(before < -0.1);
-        assert_true(evaluation_floor(&kept.evaluation, 0)->depth < 3e-5);
-        check_knots(&kept);
-        opened_free(&free_to_go);
-        opened_free(&kept);
+        assert_true(evaluation_floor(&kept.opened.evaluation, 0)->depth < 3e-5);
+        assert_knots_are_hit(&kept);
+        stand_close(&free_to_go);
+        stand_close(&kept);
     }
 }
 
 /// Solved again after a knot was elsewhere meanwhile.
-TEST_OF(struct opened, opened, *opened = open_scene("free", "{ \"frame\": 20, \"value\": 5 }", ", \"floor\": 0"),
-        opened_free(opened), the_same_document_gives_the_same_bits)
+STAND_TEST(the_same_document_gives_the_same_bits,
+           *stand = open_scene("free", "{ \"frame\": 20, \"value\": 5 }", ", \"floor\": 0"))
 {
-    struct evaluation *evaluation = &opened->evaluation;
+    struct evaluation *evaluation = &stand->opened.evaluation;
     const size_t size = (size_t)evaluation->samples * sizeof(double);
     double *was = malloc(size);
     assert_non_null(was);
     memcpy(was, evaluation->curves[0].im, size);
     for (double value = 5.5; value >= 5; value -= 0.25) {
-        document_own_spline(opened->document, 0)->knots[0].value = value;
-        evaluation_update(evaluation, opened->document, false);
+        document_own_spline(stand->opened.document, 0)->knots[0].value = value;
+        evaluation_update(evaluation, stand->opened.document, false);
     }
     assert_memory_equal(was, evaluation->curves[0].im, size);
     free(was);
@@ -100,44 +84,35 @@ TEST_OF(struct opened, opened, *opened = open_scene("free", "{ \"frame\": 20, \"
 TEST(an_untouched_floor_is_none_and_a_missed_one_is_told)
 {
     static const char knot[] = "{ \"frame\": 20, \"value\": 2 }";
-    struct opened plain = open_scene("free", knot, ""), floored = open_scene("free", knot, ", \"floor\": -1");
-    assert_memory_equal(plain.evaluation.curves[0].im, floored.evaluation.curves[0].im,
-                        (size_t)plain.evaluation.samples * sizeof(double));
-    assert_true(evaluation_floor(&floored.evaluation, 0)->depth == 0);
-    opened_free(&plain);
-    opened_free(&floored);
+    struct stand plain = open_scene("free", knot, ""), floored = open_scene("free", knot, ", \"floor\": -1");
+    assert_memory_equal(plain.opened.evaluation.curves[0].im, floored.opened.evaluation.curves[0].im,
+                        (size_t)plain.opened.evaluation.samples * sizeof(double));
+    assert_true(evaluation_floor(&floored.opened.evaluation, 0)->depth == 0);
+    stand_close(&plain);
+    stand_close(&floored);
 }
 
-TEST_OF(struct opened, opened, *opened = open_scene("free", "", ", \"floor\": -1"), opened_free(opened),
-        a_floor_above_the_feet_is_refused)
+STAND_TEST(a_floor_above_the_feet_is_refused, *stand = open_scene("free", "", ", \"floor\": -1"))
 {
-    struct history *history = history_create(opened->document);
-    struct rig changed = *opened->document->rigs[0];
+    const struct document *document = stand->opened.document;
+    struct rig changed = *document->rigs[0];
     changed.character.floor = 0.5;
-    history_begin(history, "Floor", 0);
-    assert_refusal(edit_rig_set(opened->document, 0, &changed, &error), "floor: expected a height of at most 0");
-    assert_true(opened->document->rigs[0]->character.floor == -1);
+    assert_refusal(edit_rig_set(stand_begin(stand), 0, &changed, &error), "floor: expected a height of at most 0");
+    assert_true(document->rigs[0]->character.floor == -1);
     changed.character.floor = -0.25;
-    assert_done(edit_rig_set(opened->document, 0, &changed, &error));
-    history_end(history);
-    assert_true(opened->document->rigs[0]->character.floor == -0.25);
-    assert_true(history_undo(history));
-    assert_true(opened->document->rigs[0]->character.floor == -1);
-    history_destroy(history);
+    stand_end(stand, edit_rig_set(stand->opened.document, 0, &changed, NULL));
+    assert_true(document->rigs[0]->character.floor == -0.25);
+    assert_true(history_undo(stand->history));
+    assert_true(document->rigs[0]->character.floor == -1);
 }
 
 /// A vertex low down that both splines move, and where it is at a sample.
-static int low_vertex(const struct opened *opened, int sample, double at[3])
+static int low_vertex(const struct stand *stand, int sample, double at[3])
 {
-    const struct model_source source = models_source(opened->models);
-    const int splines[2] = {0, 1};
     int lowest = -1;
-    struct pin_point found;
-    for (int v = 0; v < models_figure(opened->models, 0)->character.vertex_count; v++) {
-        const struct pin pin = {.frame = sample, .point = v};
+    for (int v = 0; v < models_figure(stand->opened.models, 0)->character.vertex_count; v++) {
         pin_pull c[2];
-        const struct pin_query query = {0, &pin, splines, 2};
-        assert_true(source.find(source.context, &opened->evaluation, opened->document, &query, c, &found));
+        const struct pin_point found = stand_find(stand, 0, v, sample, c);
         const double moves = hypot(c[0][1][0], c[0][1][1]);
         if (moves < 0.05 || (lowest >= 0 && found.at[1] >= at[1])) continue;
         lowest = v;
@@ -151,32 +126,31 @@ static int low_vertex(const struct opened *opened, int sample, double at[3])
 TEST(pins_come_first_and_the_floor_sinks_to_them)
 {
     static const char knots[] = "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }";
-    struct opened free_to_go = open_scene("free", knots, "");
+    struct stand free_to_go = open_scene("free", knots, "");
     double at[3] = {0};
     const int vertex = low_vertex(&free_to_go, 60, at);
-    opened_free(&free_to_go);
+    stand_close(&free_to_go);
     for (int below = 0; below < 2; below++) {
         char more[256];
         snprintf(more, sizeof more,
                  ", \"floor\": 0, \"pins\": [ { \"frame\": 60, \"vertex\": %d, \"to\": [%.9g, %.9g, %.9g] } ]",
                  vertex, at[0], below ? -0.05 : 0.04, at[2]);
-        struct opened opened = open_scene("free", knots, more);
-        const struct pin_left *left = evaluation_pin(&opened.evaluation, opened.document, 0, 0);
-        const struct floor_left *floor = evaluation_floor(&opened.evaluation, 0);
+        struct stand stand = open_scene("free", knots, more);
+        const struct pin_left *left = stand_left(&stand, 0, 0);
+        const struct floor_left *floor = evaluation_floor(&stand.opened.evaluation, 0);
         assert_true(fabs(left->way[1]) < 0.005);
-        check_knots(&opened);
+        assert_knots_are_hit(&stand);
         if (below) {
             assert_true(floor->depth >= 0.045 && floor->sample == 60);
-            assert_true(lowest(&opened, 60) < -0.045);
-            assert_true(lowest(&opened, 59) < -0.02 &&
-                        lowest(&opened, 61) < -0.02); // it does not jump up to the floor
+            assert_true(lowest(&stand, 60) < -0.045);
+            assert_true(lowest(&stand, 59) < -0.02 && lowest(&stand, 61) < -0.02); // it does not jump up to the floor
         } else {
             assert_true(floor->depth < 3e-5);
         }
-        for (int i = 0; i < opened.evaluation.samples; i++) {
-            if (!below || abs(i - 60) > 9) assert_true(lowest(&opened, i) > -3e-5); // a quarter of 30 samples
+        for (int i = 0; i < stand.opened.evaluation.samples; i++) {
+            if (!below || abs(i - 60) > 9) assert_true(lowest(&stand, i) > -3e-5); // a quarter of 30 samples
         }
-        opened_free(&opened);
+        stand_close(&stand);
     }
 }
 
@@ -190,16 +164,14 @@ TEST(all_that_a_spline_may_have_at_once)
                                           "\"limits\": [-6, 6]"};
     double seen[3][121];
     for (int n = 0; n < 3; n++) {
-        struct opened opened;
-        assert_done(read_scene(&opened, "free", knots, splines[n], pin, &error));
-        opened_solve(&opened, SOLVER_BY_LENGTH);
-        assert_int_equal(opened.evaluation.samples, 121);
-        check_knots(&opened);
+        struct stand stand = open_with("free", knots, splines[n], pin);
+        assert_int_equal(stand.opened.evaluation.samples, 121);
+        assert_knots_are_hit(&stand);
         for (int i = 0; i < 121; i++) {
-            assert_true(lowest(&opened, i) > -3e-5);
-            seen[n][i] = opened.evaluation.curves[0].total[i];
+            assert_true(lowest(&stand, i) > -3e-5);
+            seen[n][i] = stand.opened.evaluation.curves[0].total[i];
         }
-        opened_free(&opened);
+        stand_close(&stand);
     }
     double most = 0;
     for (int i = 0; i < 121; i++) most = fmax(most, fabs(seen[1][i] - seen[0][i]));
@@ -207,15 +179,15 @@ TEST(all_that_a_spline_may_have_at_once)
     assert_memory_equal(seen[1], seen[2], sizeof seen[1]);
 }
 
-TEST_OF(struct opened, opened, *opened = open_scene("free", "", ", \"floor\": -0.5, \"carpet\": \"red\""),
-        opened_free(opened), a_floor_is_saved_with_what_is_not_known)
+STAND_TEST(a_floor_is_saved_with_what_is_not_known,
+           *stand = open_scene("free", "", ", \"floor\": -0.5, \"carpet\": \"red\""))
 {
-    char *text = text_of_document(opened->document);
+    char *text = text_of_document(stand->opened.document);
     assert_non_null(strstr(text, "\"floor\": -0.5"));
     assert_non_null(strstr(text, "\"carpet\": \"red\""));
     free(text);
-    opened->document->rigs[0]->character.has_floor = false;
-    text = text_of_document(opened->document);
+    stand->opened.document->rigs[0]->character.has_floor = false;
+    text = text_of_document(stand->opened.document);
     assert_null(strstr(text, "\"floor\""));
     free(text);
 }

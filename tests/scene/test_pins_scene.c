@@ -1,110 +1,33 @@
 /// Pins of whole scenes: points of characters, tails and chains are where they must be, whatever was edited before.
-#include "near.h"
-
-#include "model/figure.h"
-#include "rig/import.h"
-#include "scene/edit.h"
-#include "scene/history.h"
-#include "scene/load.h"
-#include "scene/pins.h"
+#include "stand.h"
 #include "temporary.h"
 
-/// A scene that is edited and solved.
-struct stand {
-    struct opened opened;
-    struct history *history;
-};
-
 static struct document *document_of(struct stand *stand) { return stand->opened.document; }
-
-static void stand_open(struct stand *stand, const char *path)
-{
-    assert_done(opened_read(&stand->opened, path, &error));
-    stand->history = history_create(stand->opened.document);
-    assert_non_null(stand->history);
-}
-
-static void stand_close(struct stand *stand)
-{
-    history_destroy(stand->history);
-    opened_free(&stand->opened);
-}
-
-#define STAND_TEST(name, opens) TEST_OF(struct stand, stand, opens, stand_close(stand), name)
-
-/// The document of a step that opens; and its end, after an edit that must be possible.
-static struct document *begin(struct stand *stand)
-{
-    history_begin(stand->history, "Edit", 0);
-    return document_of(stand);
-}
-
-static void end(struct stand *stand, bool done)
-{
-    assert_true(done);
-    history_end(stand->history);
-}
-
-/// As a frame solves what its edits changed.
-static void solve(struct stand *stand)
-{
-    struct document *document = document_of(stand);
-    struct evaluation *evaluation = &stand->opened.evaluation;
-    evaluation->models = models_source(stand->opened.models);
-    evaluation_update(evaluation, document, false);
-}
-
-/// Solves from nothing.
-static void solve_whole(struct stand *stand)
-{
-    evaluation_free(&stand->opened.evaluation);
-    opened_solve(&stand->opened, SOLVER_BY_LENGTH);
-}
-
-/// The point and, of each spline, how it moves it.
-static struct pin_point find(struct stand *stand, int rig, int point, double frame, pin_pull *c)
-{
-    const struct document *document = document_of(stand);
-    const struct model_source source = models_source(stand->opened.models);
-    struct pin_point found;
-    struct pin pin = {.frame = frame, .point = point};
-    int splines[64];
-    for (int s = 0; s < document->spline_count; s++) splines[s] = s;
-    const struct pin_query query = {rig, &pin, splines, document->spline_count};
-    assert_true(source.find(source.context, &stand->opened.evaluation, document, &query, c, &found));
-    return found;
-}
 
 /// A vertex moves as far as x, however far: one round of solving is enough for its pins.
 STAND_TEST(a_characters_point_moves_by_its_pull_however_far, stand_open(stand, "assets/scenes/character.json"))
 {
-    pin_pull c[64], ignored[64];
+    pin_pull c[64];
     opened_solve(&stand->opened, SOLVER_BY_LENGTH);
     const int sample = document_sample(document_of(stand), 30);
-    const struct pin_point near = find(stand, 0, 100, 30, c);
+    const struct pin_point near = stand_find(stand, 0, 100, 30, c);
     stand->opened.evaluation.curves[0].re[sample] += 1000;
-    const struct pin_point far = find(stand, 0, 100, 30, ignored);
+    const struct pin_point far = stand_find(stand, 0, 100, 30, NULL);
     assert_true(near.is_linear && far.is_linear);
     for (int k = 0; k < 3; k++) assert_near(far.at[k] - near.at[k], 1000 * c[0][k][0], 1e-6 * near.size);
 }
 
-static double left_of(struct stand *stand, int rig, int pin)
-{
-    const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, document_of(stand), rig, pin);
-    assert_non_null(left);
-    assert_true(left->is_found);
-    return hypot(hypot(left->way[0], left->way[1]), left->way[2]);
-}
+static double left_of(struct stand *stand, int rig, int pin) { return length_of(stand_left(stand, rig, pin)->way); }
 
 /// c against what small changes of x do.
 static void check_pulls(const char *path, int rig, int point, double frame, double step, double tolerance)
 {
     struct stand stand = {0};
     stand_open(&stand, path);
-    solve_whole(&stand);
+    stand_solve(&stand);
     const int sample = document_sample(document_of(&stand), frame);
-    pin_pull c[64], ignored[64];
-    const struct pin_point at = find(&stand, rig, point, frame, c);
+    pin_pull c[64];
+    const struct pin_point at = stand_find(&stand, rig, point, frame, c);
     bool any = false;
     for (int s = 0; s < document_of(&stand)->spline_count; s++) {
         wiggly_curve *curve = &stand.opened.evaluation.curves[s];
@@ -112,9 +35,9 @@ static void check_pulls(const char *path, int rig, int point, double frame, doub
             double *x = part == 0 ? &curve->re[sample] : &curve->im[sample];
             const double before = *x;
             *x = before + step;
-            const struct pin_point up = find(&stand, rig, point, frame, ignored);
+            const struct pin_point up = stand_find(&stand, rig, point, frame, NULL);
             *x = before - step;
-            const struct pin_point down = find(&stand, rig, point, frame, ignored);
+            const struct pin_point down = stand_find(&stand, rig, point, frame, NULL);
             *x = before;
             for (int k = 0; k < 3; k++) {
                 const double seen = (up.at[k] - down.at[k]) / (2 * step);
@@ -168,7 +91,7 @@ static const char creature_and_tails[] =
 static void open_zoo(struct stand *stand)
 {
     stand_open(stand, write_scene("zoo.json", creature_and_tails));
-    solve(stand);
+    stand_solve(stand);
 }
 
 enum { CREATURE, SHARED, OWN };
@@ -201,7 +124,7 @@ static int free_vertex(struct stand *stand)
     for (int v = 0; v < vertices; v += 3) {
         pin_pull c[64];
         double far = 0;
-        find(stand, CREATURE, v, 0, c);
+        stand_find(stand, CREATURE, v, 0, c);
         for (int s = 0; s < 2; s++) {
             for (int k = 0; k < 3; k++) far += c[s][k][0] * c[s][k][0] + c[s][k][1] * c[s][k][1];
         }
@@ -222,7 +145,7 @@ static int free_frame(struct stand *stand, int joint, int from)
     double most = 0;
     for (int frame = from; frame < document_of(stand)->last_frame; frame++) {
         pin_pull c[64];
-        find(stand, 0, joint, frame, c);
+        stand_find(stand, 0, joint, frame, c);
         if (freedom(c, all, 2) <= most) continue;
         most = freedom(c, all, 2);
         freest = frame;
@@ -234,12 +157,12 @@ static int free_frame(struct stand *stand, int joint, int from)
 static void pin_near(struct stand *stand, int rig, int point, double frame, double re, double im)
 {
     pin_pull c[64];
-    struct pin_point at = find(stand, rig, point, frame, c);
+    struct pin_point at = stand_find(stand, rig, point, frame, c);
     for (int s = 0; s < document_of(stand)->spline_count; s++) {
         for (int k = 0; k < 3; k++) at.at[k] += c[s][k][0] * re - c[s][k][1] * im;
     }
     const struct pin pin = {.frame = frame, .point = point, .to = {at.at[0], at.at[1], at.at[2]}};
-    end(stand, edit_pin_add(begin(stand), rig, &pin, NULL));
+    stand_end(stand, edit_pin_add(stand_begin(stand), rig, &pin, NULL));
 }
 
 /// Where the stage shows a point.
@@ -262,26 +185,20 @@ static void assert_met(struct stand *stand, int rig, double tolerance)
 {
     const struct rig *of = document_of(stand)->rigs[rig];
     for (int i = 0; i < of->pin_count; i++) {
-        const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, document_of(stand), rig, i);
+        const struct pin_left *left = stand_left(stand, rig, i);
         float at[3];
-        if (!(left_of(stand, rig, i) <= tolerance * left->size))
-            fail_msg("pin %d of %s is off by %g m", i, rig_title(of), left_of(stand, rig, i));
+        if (!(length_of(left->way) <= tolerance * left->size))
+            fail_msg("pin %d of %s is off by %g m", i, rig_title(of), length_of(left->way));
         stage_point(stand, rig, of->pins[i].point, of->pins[i].frame, at);
         for (int k = 0; k < 3; k++) assert_near(at[k], of->pins[i].to[k], 1e-5);
     }
-    for (int s = 0; s < document_of(stand)->spline_count; s++) {
-        const struct spline *spline = document_of(stand)->splines[s];
-        for (int k = 0; k < spline->knot_count; k++) {
-            const int sample = document_sample(document_of(stand), spline->knots[k].frame);
-            assert_near(stand->opened.evaluation.curves[s].total[sample], spline->knots[k].value, 1e-9);
-        }
-    }
+    assert_knots_are_hit(stand);
 }
 
 /// Solves, and bit by bit it is what a solve from nothing gives.
 static void assert_same_as_whole(struct stand *stand)
 {
-    solve(stand);
+    stand_solve(stand);
     struct evaluation whole = {.models = models_source(stand->opened.models)};
     const struct evaluation *seen = &stand->opened.evaluation;
     evaluation_update(&whole, document_of(stand), false);
@@ -298,17 +215,17 @@ STAND_TEST(test_a_character_meets_its_pins, open_zoo(stand))
     const int vertex = free_vertex(stand);
     pin_near(stand, CREATURE, vertex, 30, 0.4, -0.3);
     pin_near(stand, CREATURE, vertex, 41, -0.5, 0.2);
-    solve(stand);
+    stand_solve(stand);
     assert_met(stand, CREATURE, 1e-9);
     assert_same_as_whole(stand);
 }
 
 STAND_TEST(test_a_tail_meets_its_pins, stand_open(stand, "assets/scenes/tail.json"))
 {
-    solve(stand);
+    stand_solve(stand);
     pin_near(stand, 0, 23, 30, 0.2, 0.1);
     pin_near(stand, 0, 23, free_frame(stand, 23, 70), -0.1, 0.1);
-    solve(stand);
+    stand_solve(stand);
     assert_met(stand, 0, 1e-6);
     assert_same_as_whole(stand);
 }
@@ -316,46 +233,46 @@ STAND_TEST(test_a_tail_meets_its_pins, stand_open(stand, "assets/scenes/tail.jso
 /// What a pin leaves, and what there was before it.
 static double part_left(struct stand *stand, int rig, int point, double frame, double re, double im)
 {
-    const struct pin_point before = find(stand, rig, point, frame, (pin_pull[64]){{{0}}});
+    const struct pin_point before = stand_find(stand, rig, point, frame, NULL);
     pin_near(stand, rig, point, frame, re, im);
-    solve(stand);
+    stand_solve(stand);
     const double *to = document_of(stand)->rigs[rig]->pins[0].to;
-    const double way = hypot(hypot(to[0] - before.at[0], to[1] - before.at[1]), to[2] - before.at[2]);
-    return left_of(stand, rig, 0) / way;
+    return left_of(stand, rig, 0) /
+           length_of((const double[]){to[0] - before.at[0], to[1] - before.at[1], to[2] - before.at[2]});
 }
 
 STAND_TEST(test_a_chain_on_a_clip_is_pinned, stand_open(stand, "assets/scenes/dog.json"))
 {
-    solve(stand);
+    stand_solve(stand);
     assert_true(part_left(stand, 1, 7, 30, 0.3, 0.1) < 0.3);
     assert_same_as_whole(stand);
     float at[3];
     stage_point(stand, 1, 7, 30, at);
-    const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, document_of(stand), 1, 0);
+    const struct pin_left *left = stand_left(stand, 1, 0);
     for (int k = 0; k < 3; k++) assert_near(at[k], left->at[k], 1e-6);
 }
 
 STAND_TEST(test_a_tail_on_a_moving_base_is_pinned, stand_open(stand, "assets/scenes/follow.json"))
 {
-    solve(stand);
+    stand_solve(stand);
     assert_true(part_left(stand, 0, 23, 30, 0.1, 0.1) < 0.5);
     assert_same_as_whole(stand);
     struct knot base = document_of(stand)->splines[0]->knots[1];
     base.value = 0.9;
-    end(stand, edit_knot_set(begin(stand), 0, &base, NULL));
+    stand_end(stand, edit_knot_set(stand_begin(stand), 0, &base, NULL));
     assert_same_as_whole(stand); // the pinned splines follow the base by a track, and where it is
 }
 
 /// The creature and a tail share a spline; another tail, pinned itself, follows a third that is pinned.
 STAND_TEST(test_rigs_that_share_splines, open_zoo(stand))
 {
-    const double own = find(stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
+    const double own = stand_find(stand, OWN, 11, 20, NULL).at[1];
     pin_near(stand, CREATURE, free_vertex(stand), 30, 0.4, -0.3);
     pin_near(stand, SHARED, 9, 44, 0.1, 0);
-    solve(stand);
+    stand_solve(stand);
     assert_met(stand, CREATURE, 1e-6);
     assert_true(left_of(stand, SHARED, 0) < 0.05);
-    const double followed = find(stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
+    const double followed = stand_find(stand, OWN, 11, 20, NULL).at[1];
     assert_true(fabs(followed - own) > 1e-3); // it sees the pinned curve
     pin_near(stand, OWN, 11, 20, 0.3, 0.2);
     assert_same_as_whole(stand);
@@ -364,7 +281,7 @@ STAND_TEST(test_rigs_that_share_splines, open_zoo(stand))
 /// Edit number `i` of those below; false after the last.
 static bool edit_once(struct stand *stand, int i)
 {
-    struct document *document = begin(stand);
+    struct document *document = stand_begin(stand);
     struct pin moved = document->rigs[SHARED]->pins ? document->rigs[SHARED]->pins[0] : (struct pin){0};
     struct knot knot = document->splines[0]->knots[1];
     struct angles gain = document->rigs[SHARED]->tail.channels[1].gain;
@@ -393,7 +310,7 @@ STAND_TEST(test_edits_give_the_same_bits, open_zoo(stand))
     pin_near(stand, CREATURE, free_vertex(stand), 30, 0.4, -0.3);
     pin_near(stand, SHARED, 9, 44, 0.1, 0.2);
     pin_near(stand, OWN, 7, 10, 0.2, 0.2);
-    solve(stand);
+    stand_solve(stand);
     for (int i = 0; i < 7; i++) {
         assert_true(edit_once(stand, i));
         assert_same_as_whole(stand);
