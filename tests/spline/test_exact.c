@@ -74,6 +74,7 @@ static void solve(enum way way)
     wiggly_curve curve = curve_in(numbers, MOST);
     struct answer *answer = &answers[way];
     answer->status = wiggly_solve(solvers[way], &desc, &curve);
+    for (int k = 0; k < desc.knot_count; k++) assert_true(curve.total[desc.knots[k].sample] == desc.knots[k].value);
     answer->told = curve.error, answer->sweeps = curve.refinements + 1;
     const double *const is[3] = {exact[0], exact[1], exact[2]}, *const seen[3] = {curve.total, curve.re, curve.im};
     double size;
@@ -226,6 +227,47 @@ TEST(random_patterns_to_40_samples)
         }
     }
     assert_true(tally.solved > quick_or_all(1900, 9500) && tally.lapack > quick_or_all(1100, 5500));
+}
+
+/// Too short for a row, or with no single answer: 0: one knot of a cubic; to 6: one and two samples; 7: undamped, knots half a period apart,
+/// calm 0, so any swing that is 0 at the knots costs nothing; 8: an undamped loop of two periods, whose phase is nobody's; 9: a spring that
+/// starts slack.
+static void make_corner(int n)
+{
+    const int samples = n == 0 ? 50 : n < 7 ? 1 + n % 2 : n == 7 ? 100 : n == 8 ? 49 : 60;
+    begin(samples,
+          n == 0   ? WIGGLY_CUBIC
+          : n < 7  ? (wiggly_mode)(n % 3)
+          : n == 7 ? WIGGLY_COMPLEX
+                   : WIGGLY_REAL,
+          n == 8 ? WIGGLY_LOOP : WIGGLY_FREE);
+    desc.frequency.value = 1;
+    desc.damping.value = n < 7 || n == 9 ? 0.05 : 0;
+    if (n >= 7 && n < 9) desc.bandwidth.value = desc.calm = 0;
+    if (n == 0) add_knot(20, 2);
+    if (n > 0 && n < 7) *add_knot(0, 4) = (wiggly_knot){.value = 4, .has_slope = true, .slope = 1, .stiffness = 10};
+    for (int k = 0; n == 7 && k < 3; k++) add_knot(12 * k, k == 2 ? 0.3 : 0);
+    if (n == 8) add_knot(5, 1);
+    for (int k = 0; n == 9 && k < 2; k++) add_knot(59 * k, 1e-9);
+    for (int k = 0; k < samples; k++) tracks[0][k] = k < 3 ? 0 : 1;
+    if (n == 9) desc.frequency.track = tracks[0];
+}
+
+TEST(corners_have_the_textbooks_status)
+{
+    for (int n = 0; n < 10; n++) {
+        wiggly_status status;
+        make_corner(n);
+        assert_true(textbook_curve(&desc, &book, &status, exact[0], exact[1], exact[2]));
+        for (int w = 0; w < WAYS; w++) {
+            const struct answer *a = &answers[w];
+            solve((enum way)w);
+            if (a->status == status && a->error <= 1e-8) continue;
+            if (n == 7 && status == WIGGLY_OK && a->status == WIGGLY_INEXACT && a->error <= a->told) continue;
+            fail_msg("corner %d, %s: %s, not %s, off by %g", n, way_names[w], wiggly_status_text(a->status),
+                     wiggly_status_text(status), a->error);
+        }
+    }
 }
 
 // --- long domains and long gaps --------------------------------------------------------------------------------------

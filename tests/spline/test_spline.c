@@ -21,62 +21,6 @@ static wiggly_desc describe(int samples, wiggly_mode mode, wiggly_start start, c
     return desc;
 }
 
-TEST(one_knot_of_a_cubic_is_a_constant)
-{
-    const wiggly_knot knot = {.sample = 20, .value = 2};
-    wiggly_desc desc = describe(50, WIGGLY_CUBIC, WIGGLY_FREE, &knot, 1);
-    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
-    for (int i = 0; i < 50; i++) assert_near(curve.total[i], 2, 1e-12);
-}
-
-TEST(domains_of_one_and_two_samples)
-{
-    const wiggly_knot knot = {.sample = 0, .value = 4, .has_slope = true, .slope = 1, .stiffness = 10};
-    for (int samples = 1; samples <= 2; samples++) {
-        for (int mode = 0; mode < 3; mode++) {
-            wiggly_desc desc = describe(samples, (wiggly_mode)mode, WIGGLY_FREE, &knot, 1);
-            assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
-            for (int i = 0; i < samples; i++) assert_true(curve.total[i] == 4);
-        }
-    }
-}
-
-/// Undamped, knots half a period apart, calm 0: any amount of swing that is 0 at the knots costs nothing.
-TEST(what_has_no_single_answer_is_calmed_and_said)
-{
-    const wiggly_knot knots[] = {{.sample = 0, .value = 0}, {.sample = 12, .value = 0}, {.sample = 24, .value = 0.3}};
-    wiggly_desc desc = describe(100, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 3);
-    desc.damping.value = desc.bandwidth.value = desc.calm = 0;
-    wiggly_status status = wiggly_solve(solver, &desc, &curve);
-    for (int i = 0; i < 100; i++) assert_true(hypot(curve.re[i], curve.im[i]) <= 1e4);
-    wiggly_desc calmed = desc;
-    calmed.calm = 0.05;
-    if (status == WIGGLY_CALMED) {
-        wiggly_curve other = curve_create(MAX);
-        assert_int_equal(wiggly_solve(solver, &calmed, &other), WIGGLY_OK);
-        assert_memory_equal(other.total, curve.total, 100 * sizeof(double));
-        curve_destroy(&other);
-    }
-    const wiggly_knot one = {.sample = 5, .value = 1};
-    wiggly_desc loop = describe(49, WIGGLY_REAL, WIGGLY_LOOP, &one, 1);
-    loop.damping.value = loop.calm = 0; // one undamped cycle of exactly two periods: its phase is nobody's
-    loop.frequency.value = 1;
-    assert_int_equal(wiggly_solve(solver, &loop, &curve), WIGGLY_CALMED);
-}
-
-TEST(a_spring_that_starts_slack_is_levelled)
-{
-    double frequency[60];
-    for (int i = 0; i < 60; i++) frequency[i] = i < 3 ? 0 : 1;
-    // Two knots on the free stretch pin its line; with one alone on it and one where the spring already acts, nothing does.
-    const wiggly_knot knots[] = {{.sample = 0, .value = 1e-9}, {.sample = 59, .value = 1e-9, .has_slope = false}};
-    wiggly_desc desc = describe(60, WIGGLY_REAL, WIGGLY_FREE, knots, 2);
-    desc.frequency.track = frequency;
-    wiggly_status status = wiggly_solve(solver, &desc, &curve);
-    assert_true(status == WIGGLY_OK || status == WIGGLY_LEVELLED);
-    for (int i = 0; i < 60; i++) assert_true(fabs(curve.total[i]) < 1e-4);
-}
-
 /// A frequency as high as a number can be turns by no angle that could be told; the drive of a filter turns with it.
 TEST(a_frequency_without_bounds_is_solved)
 {
