@@ -124,10 +124,13 @@ static void hold_imaginary(struct textbook *b)
     if (!b->is_complex || (b->rest && b->earliest < 0)) return;
     real t = (b->loop ? b->count : b->count - 1) * b->h, t4 = t * t * t * t;
     int held = b->tied ? b->last - b->first + 1 : b->count;
+    real top = 0;
     for (int k = 0; k < held; k++) {
+        const bool is_beside =
+            k > 0 && !b->still[b->first + k] && !b->still[b->first + k - 1]; // has the same around it
+        if (!b->filter && !is_beside) top = highest_around(b, k, held);
         real natural = poles_of(b, k)->natural, w2 = natural * natural;
         real weight = b->h / (t4 * (1 + w2 * w2 * w2 * w2 * t4 * t4));
-        const real top = b->filter ? 0 : highest_around(b, k, held);
         if (top > 0) {
             real lack = fmaxq(0, 1 - 100 * w2 / (top * top));
             weight += b->h * (top * top * top * top) * lack * lack;
