@@ -50,7 +50,7 @@ TEST(known_oscillations_are_found_again)
     assert_true(found(WIGGLY_REAL) >= 0.9 * SEEDS);
 }
 
-/// Neither the order of knots, nor their scale, nor the rate, nor what they swing about.
+/// Neither the order of knots, nor their scale, nor the rate, nor when they begin, nor what they swing about.
 TEST(only_the_shape_counts)
 {
     wiggly_knot knots[MOST], other[MOST];
@@ -61,7 +61,7 @@ TEST(only_the_shape_counts)
     for (int i = 0; i < desc.knot_count; i++) {
         other[i] = knots[desc.knot_count - 1 - i];
         other[i].value = 20 + 7 * other[i].value;
-        other[i].sample *= 4;
+        other[i].sample = 4 * other[i].sample + 800;
     }
     desc.knots = other, desc.samples *= 4, desc.step /= 2, desc.equilibrium.value = 20;
     for (int size = 0; size < 4; size++) {
