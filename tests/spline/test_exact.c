@@ -219,13 +219,13 @@ TEST(random_patterns_to_40_samples)
     assert_true(tally.solved > quick_or_all(1900, 9500) && tally.lapack > quick_or_all(1100, 5500));
 }
 
-/// Too short for a row, or with no single answer: 0: one knot of a cubic; to 6: one and two samples, from 10 on of an equilibrium that moves; 7: undamped, knots half a period apart,
+/// Too short for a row, or with no single answer: 0: one knot of a cubic; to 6: one and two samples, from 10 on of an equilibrium that moves, from 16 on with the filter; 7: undamped, knots half a period apart,
 /// calm 0, so any swing that is 0 at the knots costs nothing; 8: an undamped loop of two periods, whose phase is nobody's; 9: a spring that
 /// starts slack.
 static void make_corner(int n)
 {
-    const bool moves = n >= 10;
-    if (moves) n -= 9;
+    const bool moves = n >= 10, filters = n >= 16;
+    if (moves) n -= filters ? 15 : 9;
     const int samples = n == 0 ? 50 : n < 7 ? 1 + n % 2 : n == 7 ? 100 : n == 8 ? 49 : 60;
     begin(samples,
           n == 0   ? WIGGLY_CUBIC
@@ -245,11 +245,12 @@ static void make_corner(int n)
     for (int k = 0; k < samples; k++) tracks[1][k] = sin(k + 1);
     if (n == 9) desc.frequency.track = tracks[0];
     if (moves) desc.equilibrium.track = tracks[1];
+    if (filters) desc.passive = WIGGLY_FILTER;
 }
 
 TEST(corners_have_the_textbooks_status)
 {
-    for (int n = 0; n < 16; n++) {
+    for (int n = 0; n < 22; n++) {
         wiggly_status status;
         make_corner(n);
         assert_true(textbook_curve(&desc, &book, &status, exact[0], exact[1], exact[2]));

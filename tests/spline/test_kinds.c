@@ -95,7 +95,7 @@ static int make_knots(const struct kind *kind, int i, uint64_t *seed, wiggly_kno
         return 2;
     }
     for (int k = 0; k < wanted; k++) {
-        int sample = room * k + (int)(uniform(seed) * (room - 1));
+        int sample = k == 0 && i % 8 == 4 ? 0 : room * k + (int)(uniform(seed) * (room - 1));
         const bool beside = kind->grid == 0 && k > 0 && uniform(seed) < 0.2;
         if (beside) sample = knots[made - 1].sample + 1;
         if (kind->grid > 0) sample -= sample % kind->grid;
