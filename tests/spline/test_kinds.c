@@ -87,7 +87,8 @@ static wiggly_desc describe(const struct kind *kind)
 /// From no knot on, in twos side by side now and then; of every sort and in any order.
 static int make_knots(const struct kind *kind, int i, uint64_t *seed, wiggly_knot *knots)
 {
-    const int wanted = kind->far ? 4 : i % (KNOTS + 1), room = (SAMPLES - 1) / (i % 2 ? KNOTS : wanted + 1);
+    const bool is_dense = i % 2 || i % 8 == 4; // the rest is spread out
+    const int wanted = kind->far ? 4 : i % (KNOTS + 1), room = (SAMPLES - 1) / (is_dense ? KNOTS : wanted + 1);
     int made = 0;
     if (kind->pairs) {
         knots[0] = (wiggly_knot){.value = 1};
@@ -125,10 +126,9 @@ static bool has_knot(const wiggly_desc *desc, int sample)
     return false;
 }
 
-/// The spline before, with other values four times out of eight, or another sample, slope, length or frequency.
+/// The spline before, with another value, sample and slope, length or frequency.
 static void make_edited(struct one *one, const struct one *before, int i, uint64_t *seed)
 {
-    static const int lengths[] = {11, SAMPLES, 40, 41, 12, SAMPLES - 1};
     wiggly_desc *desc = &one->desc;
     wiggly_knot *knot = &one->knots[i % (before->desc.knot_count + !before->desc.knot_count)];
     int last = 0;
@@ -136,10 +136,10 @@ static void make_edited(struct one *one, const struct one *before, int i, uint64
     memcpy(one->knots, before->knots, sizeof one->knots);
     for (int k = 0; k < desc->knot_count; k++) last = one->knots[k].sample > last ? one->knots[k].sample : last;
     desc->knots = one->knots;
-    if (i % 8 < 5) knot->value = 2 * uniform(seed) - 1;
+    if (i % 8 < 4) knot->value = 2 * uniform(seed) - 1;
     if (i % 8 == 5 && !has_knot(desc, knot->sample + 1) && knot->sample + 2 < SAMPLES) knot->sample++;
-    if (i % 8 == 6 && !knot->still) knot->has_slope = !knot->has_slope, knot->slope = 1, knot->stiffness = 3;
-    if (i % 8 == 7) desc->samples = lengths[i / 8 % 6] > last + 1 ? lengths[i / 8 % 6] : last + 2;
+    if (i % 8 == 5 && !knot->still) knot->has_slope = !knot->has_slope, knot->slope = 1, knot->stiffness = 3;
+    if (i % 8 > 5) desc->samples = last + 2 + 37 * i % (SAMPLES - 1 - last);
     if (i % 16 == 15) desc->frequency.value = 1.3;
 }
 
