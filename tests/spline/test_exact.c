@@ -126,10 +126,13 @@ static void make_short(uint64_t *seed, int samples, uint64_t pattern, wiggly_mod
     }
     for (int i = 0; i < samples - (start == WIGGLY_LOOP ? 1 : 0); i++) {
         if (!(pattern >> i & 1)) continue;
-        wiggly_knot *knot = add_knot(i, 2 * uniform(seed) - 1);
-        knot->has_slope = pick(seed, 3) == 0;
-        knot->slope = 4 * uniform(seed) - 2;
-        knot->stiffness = (double[]){1000, 1, 1e6}[pick(seed, 3)];
+        knots[desc.knot_count++] = (wiggly_knot){
+            .sample = i,
+            .value = 2 * uniform(seed) - 1,
+            .has_slope = pick(seed, 3) == 0,
+            .slope = 4 * uniform(seed) - 2,
+            .stiffness = (double[]){1000, 1, 1e6}[pick(seed, 3)],
+        };
     }
 }
 
