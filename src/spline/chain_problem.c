@@ -121,7 +121,7 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     const double passive = cplx_size(f->passive),
                  on_e = cplx_norm(f->ahead.on_e); // the tail is h (p − s₀) / on_e + e^{h s₀} − 1
     c->tail_loss = 8 * DBL_EPSILON * (2 + reach) + (on_e > 0 ? f->ahead.loss.e * (passive + reach) / on_e : 0);
-    c->noise = p->about ? problem_noise(p) : 0;
+    c->noise = p->about ? problem_noise(p) + problem_response_error(p) : 0;
     c->im_weight = p->desc->mode == WIGGLY_COMPLEX ? p->unit * problem_im_weight(p, f->at.natural) : 0;
     if (!make_nodes(solver, p, f)) c->kept = false;
 }

@@ -111,7 +111,7 @@ static void run(const wiggly_desc *desc, const double *y, double range, forced_r
     const double in_range = 1 / range, share = unit * range * sqrt(2);
     pair s = {0, 0};
     spread c = {0, 0, 0};
-    double most = 0;
+    double most = 0, missed[2] = {0};
     for (int i = 0;; i++) {
         u->total[i] = s.q;
         u->speed[i] = s.z;
@@ -126,9 +126,11 @@ static void run(const wiggly_desc *desc, const double *y, double range, forced_r
         const step_matrix step = {1 - m->loss.q_q, -m->loss.q_v, -m->loss.v_q, 1 - m->loss.v_v};
         c = spread_by(&step, c);
         c.qq += of_q * of_q, c.zz += of_z * of_z;
+        missed[0] = fmax(missed[0], of_q), missed[1] = fmax(missed[1], of_z);
         s = t;
     }
     u->error = share * sqrt(most);
+    for (int k = 0; k < 2; k++) u->missed[k] = unit * range * sqrt(last) * missed[k];
 }
 
 // --- a loop: all states together ---
@@ -186,11 +188,12 @@ static inline void eliminate(double row[4][ENTRIES], waypoint *at)
 }
 
 /// Factors the equations of q in `total` and z in `speed`. `least`: what z's rounding is at least, as a share of q's; 0: all equations weigh alike.
-/// Returns ‖r‖.
+/// Returns ‖r‖; u's `missed` receives the inverse of the least weights.
 static double factor(waypoint *way, const double *y, int period, double range, double least, bool pulled,
-                     const forced_response *u)
+                     forced_response *u)
 {
     double row[4][ENTRIES] = {{0}}, square = 0;
+    u->missed[0] = u->missed[1] = 0;
     for (int i = 0; i < period; i++) {
         const interval *m = &way[i].after;
         const step_matrix *l = &m->loss;
@@ -200,6 +203,7 @@ static double factor(waypoint *way, const double *y, int period, double range, d
         const pair by = times(l, (pair){s.q, s.z - g}), off = rounding(m, s, t, g);
         const double of_q = off.q + 0x1p-10 * range, of_z = off.z + least * of_q; // none is 0
         const double a = least > 0 ? range / of_q : 1, b = least > 0 ? range / of_z : 1;
+        u->missed[0] = fmax(u->missed[0], 1 / a), u->missed[1] = fmax(u->missed[1], 1 / b);
         const double equation[2][ENTRIES] = {
             {a * (l->q_q - 1), a * l->q_v, a * l->q_q, a * l->q_v, a, 0, a * (s.q - t.q - by.q)},
             {b * l->v_q, b * (l->v_v - 1), b * l->v_q, b * l->v_v, 0, b, b * (s.z - t.z - by.z)}};
@@ -309,6 +313,7 @@ static bool close_loop(const wiggly_desc *desc, const double *y, double floor, d
     const double largest = extent_size(extent_of(u->total, period));
     const double sums = pulled ? DBL_EPSILON : period * DBL_EPSILON + faint;
     u->error = error < INFINITY ? error * u->error + sums * largest : INFINITY;
+    u->missed[0] *= error, u->missed[1] *= error;
     return error < INFINITY && (!pulled || largest <= blow_up * range);
 }
 
@@ -331,13 +336,17 @@ static double half_change_of_y(const wiggly_desc *desc, const double *y, int i)
 static void finish(const wiggly_desc *desc, const double *y, double floor, forced_response *u)
 {
     const bool constant = poles_are_constant(desc);
-    const double h = desc->step, seconds = (desc->samples - 1) * h, of_q = u->error;
+    const double h = desc->step, seconds = (desc->samples - 1) * h;
     oscillator o = {0};
     double turn = 0, loss = 0;
+    u->state[0] = u->error, u->state[1] = 0;
+    u->rounding = 0;
     for (int i = 0; i < desc->samples; i++) {
         const double q = u->total[i], z = u->speed[i], moved = half_change_of_y(desc, y, i);
         u->total[i] = q + y[i];
         u->speed[i] = z / h;
+        u->state[1] = fmax(u->state[1], u->im[i]);
+        u->rounding = fmax(u->rounding, DBL_EPSILON * fabs(q));
         if (desc->mode != WIGGLY_COMPLEX) {
             u->im[i] = 0;
             continue;
@@ -347,10 +356,13 @@ static void finish(const wiggly_desc *desc, const double *y, double floor, force
             turn = oscillator_turn(o, seconds);
             loss = turn < 0 ? 8 * unit * o.k / (o.k - o.d * o.d) : 0;
         }
-        const double of_z = u->im[i] + DBL_EPSILON * (fabs(z) + 2 * fabs(moved));
+        const double of_state = -turn * (u->im[i] / h + o.d * u->state[0]);
         const double speed = ((z - moved) + (u->offset ? half_change(desc, u->offset, i) : 0)) / h;
         u->im[i] = turn * (speed + o.d * q);
-        u->error = fmax(u->error, -turn * (of_z / h + o.d * (of_q + unit * fabs(q))) + loss * fabs(u->im[i]));
+        const double own = -turn * (DBL_EPSILON * (fabs(z) + 2 * fabs(moved)) / h + o.d * unit * fabs(q));
+        const double rounding = own + loss * fabs(u->im[i]);
+        u->rounding = fmax(u->rounding, rounding);
+        u->error = fmax(u->error, of_state + rounding);
     }
 }
 
@@ -372,6 +384,7 @@ wiggly_status forced_response_find(const wiggly_desc *desc, const double *y, dou
         close_loop(desc, y, floor, range, u);
         status = WIGGLY_CALMED;
     }
+    u->floor = floor;
     finish(desc, y, floor, u);
     if (loops) u->total[desc->samples - 1] = u->total[0], u->im[desc->samples - 1] = u->im[0];
     return status;
@@ -379,10 +392,96 @@ wiggly_status forced_response_find(const wiggly_desc *desc, const double *y, dou
 
 void forced_response_rest(const wiggly_desc *desc, const double *y, forced_response *u)
 {
-    u->error = 0;
+    u->error = u->rounding = 0;
     for (int i = 0; i < desc->samples; i++) {
         u->total[i] = y[i];
         u->im[i] = 0;
         u->speed[i] = half_change_of_y(desc, y, i) / desc->step;
     }
+}
+
+// --- what the rows of w see of u's error ---
+//
+// The error of a state is e_{i+1} = (I − L_i) e_i + Δ_i. So a row on three samples of u sees e of the first of them, and two Δ. Of a free motion,
+// e without Δ, it sees nothing or next to nothing.
+
+/// Three samples, with what gives Im u there, and the intervals between them.
+typedef struct window {
+    double turn[3], brake[3]; ///< Im u is turn (z + brake q)
+    step_matrix loss[2];
+} window;
+
+/// The most that a row with these coefficients sees of an error that enters at a sample. A slope sees its real part, less the speed there.
+static double look(const window *w, const cplx c[3], bool is_slope, int from, const double error[2])
+{
+    double sum = 0;
+    for (int part = 0; part < 2; part++) {
+        pair e = {part == 0, part == 1};
+        cplx seen = {0, 0};
+        for (int n = from;; n++) {
+            seen = cplx_add(seen, cplx_mul(c[n], (cplx){e.q, w->turn[n] * (e.z + w->brake[n] * e.q)}));
+            if (is_slope && n == 1) seen.re -= e.z;
+            if (n == 2) break;
+            const pair by = times(&w->loss[n], e);
+            e.q -= by.q, e.z -= by.z;
+        }
+        sum += error[part] * (is_slope ? fabs(seen.re) : cplx_size(seen));
+    }
+    return sum;
+}
+
+double forced_response_slip(const wiggly_desc *desc, const forced_response *u, const system_rows *rows)
+{
+    const int count = rows->count, last = desc->samples - 1;
+    const bool constant = poles_are_constant(desc);
+    const double h = desc->step;
+    window w = {.turn = {0}};
+    oscillator o = {0};
+    const double none[2] = {0, 0};
+    double sum = 0, most[2] = {0}, jet[3] = {0};
+    for (int k = -2, slope = 0; k < count; k++) {
+        if (k < 1 || !constant) {
+            const int ahead = rows->loop ? (k + 1 + count) % count : rows->first + k + 1;
+            const oscillator here = o;
+            o = oscillator_at(desc, ahead < 0 ? 0 : ahead < last ? ahead : last, u->floor);
+            for (int n = 0; n < 2; n++) w.turn[n] = w.turn[n + 1], w.brake[n] = w.brake[n + 1];
+            w.turn[2] = desc->mode == WIGGLY_COMPLEX ? oscillator_turn(o, last * h) / h : 0, w.brake[2] = o.d * h;
+            w.loss[0] = w.loss[1];
+            w.loss[1] = interval_of((oscillator){0.5 * (here.d + o.d), 0.5 * (here.k + o.k)}, h).loss;
+        }
+        if (k < 0) continue;
+        const bool begins = k == 0 && !rows->loop, ends = k == count - 1 && !rows->loop;
+        const double *const missed = begins ? none : u->missed;
+        const double *const state = begins && rows->first == 0 ? none : u->state; // u is 0 at sample 0
+        const jet_row row = system_jet(rows, k);
+        if (row.weight > 0) {
+            const cplx c[3] = {row.before, row.own, {ends ? 0 : 1, 0}};
+            if (!constant || k < 2 || ends) { // else it is the one before
+                jet[0] = look(&w, c, false, begins, state);
+                jet[1] = look(&w, c, false, 1, missed);
+                jet[2] = look(&w, c, false, 2, u->missed);
+            }
+            sum += row.weight * (jet[0] * jet[0]);
+            for (int n = 0; n < 2; n++) most[n] = fmax(most[n], sqrt(row.weight) * jet[n + 1]);
+        }
+        if (rows->is_complex) {
+            const double im = fabs(w.turn[1]) * (u->state[1] + w.brake[1] * u->state[0]);
+            sum += (rows->is_constant ? rows->own_im : rows->im_weight[k]) * (im * im);
+        }
+        for (; slope < rows->slope_count && rows->slopes[slope].sample == k; slope++) {
+            stencil s = system_slope_stencil(rows, &rows->slopes[slope]);
+            if (ends) s.c[2] = (cplx){0, 0};
+            const double off = look(&w, s.c, true, begins, state) + look(&w, s.c, true, 1, missed) +
+                               look(&w, s.c, true, 2, u->missed);
+            sum += rows->slopes[slope].weight * (off * off);
+        }
+        for (int i = 0; i < 2 && k == 0; i++) {
+            const struct start_row *start = &rows->start.row[i];
+            const cplx on_e = ends ? (cplx){0, 0} : start->on_e, by_tail = cplx_mul(rows->tail, start->on_e);
+            const cplx c[3] = {{0, 0}, ends ? cplx_add(start->on_x, by_tail) : cplx_sub(start->on_x, on_e), on_e};
+            const double off = look(&w, c, false, 1, state) + look(&w, c, false, 2, u->missed);
+            sum += start->weight * (off * off);
+        }
+    }
+    return sqrt(sum) + most[0] + most[1];
 }

@@ -228,7 +228,7 @@ static bool solve_held(limits_work *w)
     } else {
         memset(curve->re, 0, sizeof *curve->re * (size_t)samples);
         memset(curve->im, 0, sizeof *curve->im * (size_t)samples);
-        *w->result = (minimum){.solved = true};
+        *w->result = (minimum){.solved = true, .error = w->p->response.error};
     }
     w->result->error += w->tail_error;
     if (!is_pushed) return true;

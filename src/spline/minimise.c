@@ -9,6 +9,10 @@
 // ρ = 80 ε Σ D_k A_kk bounds it, in the trace. The others are what the rounding of the rows' coefficients, of the targets and of the known
 // values may be, and does to x: residual.c sums them. No number here is fitted. (A factor of the rows themselves, for which ρ has a root
 // inside the sum, is used where ρ would be too large; and where it still is, nothing is known.)
+//
+// An error e of the response u moves the targets of w, and adds itself to the total. But what of e is a free motion, w takes back: the error of
+// u + w is the x that is 0 at the knots and minimises ‖W^½ R (x − e)‖, so it is within √D ‖W^½ R e‖ (forced_response.c), and outside the system
+// within twice e more. The smaller of the two counts.
 #include "spline/solver.h"
 #include "spline/wide.h"
 #include <float.h>
@@ -87,7 +91,9 @@ static minimum finish(wiggly_solver *solver)
         const double left = change * m->rounding / (1 - m->rounding);
         result.largest = add_change(rows->x, rows->gradient, 2 * rows->count);
         result.sweeps = n + 1;
-        result.error = m->largest * (left + sqrt(errors.misses) + errors.pulls);
+        result.error = m->largest * (left + sqrt(errors.misses) + errors.pulls) +
+                       fmin(m->largest * sqrt(errors.known) + rows->response,
+                            m->largest * rows->slip + (rows->loop ? rows->noise : 2 * rows->response));
         // pins and bounds compare what splines do under pulls to the last digit
         const double small = rows->pulls ? DBL_EPSILON : settled;
         if (m->largest * change <= small * result.largest && m->largest * left <= enough * result.largest) break;

@@ -44,7 +44,7 @@ typedef struct problem {
     int earliest, latest;      ///< samples of the earliest and of the latest knot or pull, or -1
     bool settles;              ///< w is free after the latest knot: the system ends there
     bool settled;              ///< knots that settle move the equilibrium
-    bool by_band;              ///< the chain is not exact enough
+    bool thorough;             ///< a first bound was too wide: no chain, and what rows see of the response's error
     bool level_slope;          ///< a level slope is implied at the earliest knot
     bool free_end;             ///< c·H = 0
     int still;                 ///< sample of the earliest still knot, or -1
@@ -105,7 +105,7 @@ static inline double problem_response_error(const problem *p)
     return p->response.error < INFINITY ? p->response.error : 0;
 }
 
-/// Rounding of the level that knots are measured from, and the error of the response.
+/// Rounding of the level that knots are measured from.
 double problem_noise(const problem *p);
 
 /// The cost of Im x at a sample of that natural frequency, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹, without `unit`.

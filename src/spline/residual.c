@@ -329,11 +329,14 @@ static void add_known(const system_rows *rows, const band_matrix *m, row_errors 
             a += rows->start.row[i].weight *
                  cplx_norm(k ? rows->start.row[i].on_e : cplx_sub(rows->start.row[i].on_x, rows->start.row[i].on_e));
         errors->misses += off * off * a;
+        errors->known += rows->response * rows->response * a;
     }
     for (int r = 0; r < rows->slope_count && rows->noise > 0; r++) {
         const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
-        const double size = rows->noise * (cplx_size(s.c[0]) + cplx_size(s.c[1]) + cplx_size(s.c[2]));
-        errors->misses += size * size * least_cost(rows, m, rows->slopes[r].weight, &s);
+        const double size = cplx_size(s.c[0]) + cplx_size(s.c[1]) + cplx_size(s.c[2]);
+        const double cost = size * size * least_cost(rows, m, rows->slopes[r].weight, &s);
+        errors->misses += rows->noise * rows->noise * cost;
+        errors->known += rows->response * rows->response * cost;
     }
 }
 
@@ -409,7 +412,7 @@ void system_right_side(const system_rows *rows, const band_matrix *m)
 void system_forget_known(system_rows *rows)
 {
     rows->driven = false;
-    rows->drive_error = rows->noise = 0;
+    rows->drive_error = rows->noise = rows->response = rows->slip = 0;
     memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
     for (int i = 0; i < rows->slope_count; i++) rows->slopes[i].target = rows->slopes[i].target_error = 0;
 }

@@ -330,7 +330,7 @@ static void set_tail(system_rows *rows, const problem *p)
 
 double problem_noise(const problem *p)
 {
-    return 2 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) + problem_response_error(p);
+    return 2 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) + p->response.rounding;
 }
 
 /// Whether Im x can be other than 0: not where both poles are conjugate or real all the way and no pose asks for it.
@@ -369,4 +369,8 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     set_filter(solver, p);
     set_tail(rows, p);
     set_constraints(solver, p);
+    rows->response = problem_response_error(p);
+    rows->unknown = rows->unknown || !(p->response.error < INFINITY);
+    const bool slips = p->thorough && rows->response > 0 && p->still < 0; // a still knot holds w, and not the total
+    rows->slip = slips ? forced_response_slip(p->desc, &p->response, rows) : INFINITY;
 }

@@ -58,9 +58,10 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     double *const re = curve->re + p->first, *const im = curve->im + p->first;
     wiggly_status status = p->status;
     for (;;) {
-        if (!p->by_band && problem_solve_chain(solver, p, re, im) && c->size < INFINITY &&
+        if (!p->thorough && problem_solve_chain(solver, p, re, im) && c->size < INFINITY &&
             c->error <= tolerance(p->desc->mode) * c->size) {
-            *result = (minimum){.by_chain = true, .solved = true, .largest = c->size, .error = c->error};
+            *result = (minimum){
+                .by_chain = true, .solved = true, .largest = c->size, .error = c->error + p->response.error};
         } else {
             problem_set_rows(solver, p);
             *result = solver_minimise(solver);
@@ -85,7 +86,7 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     }
     join_knots(solver, p);
     unpack(solver, p, curve);
-    *result = (minimum){.solved = true};
+    *result = (minimum){.solved = true, .error = p->response.error};
     return WIGGLY_SINGULAR;
 }
 
@@ -195,7 +196,7 @@ static void keep_asked(wiggly_curve *curve, wiggly_curve all)
 
 wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
-    *result = (minimum){.solved = true};
+    *result = (minimum){.solved = true, .error = p->response.error};
     if (problem_winds_up(p)) {
         problem_solve_gaps(solver, p, curve, result);
     } else if (p->count < 3 || is_unmoved(p)) {
@@ -241,9 +242,9 @@ wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc
         if (limited) limits_clamp(solver, &p, &all);
         all.error = 0;
         all.refinements = result.sweeps;
-        status = judge(&all, result.error + p.response.error, status);
-        if (status != WIGGLY_INEXACT || !result.by_chain) break;
-        p.by_band = true; // what both are the sum of is far larger than the total
+        status = judge(&all, result.error, status);
+        if (status != WIGGLY_INEXACT || p.thorough || !(result.by_chain || problem_response_error(&p) > 0)) break;
+        p.thorough = true;
     }
     keep_asked(curve, all);
     return status;

@@ -50,6 +50,8 @@ typedef struct system_rows {
     cplx *drive;          ///< f_i
     double drive_error;   ///< Σ w (rounding of f)²
     double noise;         ///< rounding of known values
+    double response;      ///< what the response's error may be, and with it that of known values
+    double slip;          ///< what that error's misses of the rows may be: ‖W^½ R e‖
     unsigned char *fixed; ///< marks of each sample (band.h)
     slope_row *slopes;    ///< by sample
     int slope_count;
@@ -100,6 +102,7 @@ static inline coefficients system_coefficients(const system_rows *rows, int i)
 /// What rounding does to the rows at x: see minimise.c.
 typedef struct row_errors {
     double misses; ///< ‖W^½ (ΔR x − Δd)‖²
+    double known;  ///< the same of the response's error in the known values
     double pulls;  ///< Σ_j √D_j (|ΔR|ᵀ W |r|)_j
 } row_errors;
 

@@ -421,14 +421,15 @@ void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *c
     cplx w = loops ? close_round(solver, p, &off) : rests ? (cplx){0, 0} : start_of(solver, p);
     const cplx first = w;
     re[c.first] = w.re, im[c.first] = w.im;
-    result->error = off;
+    double most = off;
     for (int n = 0; n < c.gaps; n++) {
         const wind_gap *g = &solver->wind.gap[n];
         const goal to = goal_of(solver, p, knot_of(solver, p, n + c.skipped));
         const cplx end = loops && n + 1 == c.gaps ? first : arrive(solver, p, g, w, &to);
         off = error_at_end(g, w, off + problem_response_error(p), &to);
-        result->error = fmax(result->error, fmax(off, fill_gap(solver, p, g, w, end, re, im)));
+        most = fmax(most, fmax(off, fill_gap(solver, p, g, w, end, re, im)));
         w = end;
     }
+    result->error += most;
     if (!loops) coast(solver, p, w, p->latest, samples - 1 - p->latest, re, im);
 }

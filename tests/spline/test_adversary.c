@@ -59,7 +59,7 @@ TEST(undamped_chains) { try_many(*state, ADVERSARY_CHAIN, 20); }
 
 TEST(long_splines) { try_many(*state, ADVERSARY_LONG, 20); }
 
-/// What make adversary once found wrong in silence: its seed and number.
+/// What make adversary once found wrong in silence, or inexact without need: its seed and number.
 TEST(found_before)
 {
     static const struct {
@@ -72,6 +72,9 @@ TEST(found_before)
         {24, 19482},    // a loop in resonance that winds up: a phase of 1 was rounded like a response of a million
         {29, 18769},    // a response of 1e17 left nothing of the curve, and a curve of nothing had no error
         {28, 14307},    // a loop overdamped a hundred million times: the pull of a step was lost beside its brake
+        {21, 186},      // a loop in resonance: the errors of u and w were added although w takes u's back
+        {21, 492},      // the same without a phase
+        {21, 1674},     // the same, not in a loop
     };
     for (size_t i = 0; i < sizeof found / sizeof *found; i++) {
         adversary_make_nth(&problem, found[i].seed, found[i].number);

@@ -429,7 +429,7 @@ TEST(a_search_that_tires_says_so)
     desc.equilibrium.track = wild;
     desc.knots = &knot;
     desc.knot_count = 1;
-    desc.high = 0.01, desc.low = -0.01, desc.has_low = desc.has_high = true;
+    desc.high = 0.001, desc.low = -0.001, desc.has_low = desc.has_high = true;
     assert_int_equal(wiggly_create(LONG, LONG, &large), WIGGLY_OK);
     assert_int_equal(wiggly_solve(large, &desc, &within), WIGGLY_INEXACT);
     for (int i = 0; i < LONG; i++) assert_true(now[i] >= desc.low && now[i] <= desc.high);
