@@ -119,12 +119,15 @@ ALWAYS_INLINE double pull_jets(const system_rows *rows, const bool is_constant, 
     for (int k = 0; k < from - 1; k++) store(g, k, both(0));
     if (to + 1 < n) store(g, to + 1, -j[1]);
     for (int k = to + 2; k < n; k++) store(g, k, both(0));
-    if (rows->loop) { // the first row and the last are neighbours
-        const twin first = sample_at(jet, 0), end = sample_at(jet, last);
-        const factors b =
-            is_constant ? of_b : factors_of(rows->m_re[0] + rows->p_re[0], rows->m_im[0] + rows->p_im[0]);
-        store(g, 0, sample_at(g, 0) - end);
-        store(g, last, sample_at(g, last) - first - times_conjugate(&b, first));
+    // In a loop the first row and the last are neighbours. A jet may be far larger than its change.
+    for (int k = 0; rows->loop && k < n; k += last) {
+        const int next = system_beside(rows, k, 1);
+        const coefficients at = system_coefficients(rows, k), after = system_coefficients(rows, next);
+        const factors m_here = factors_of(at.m.re, at.m.im),
+                      b_after = factors_of(after.m.re + after.p.re, after.m.im + after.p.im);
+        const twin here_j = sample_at(jet, k), next_j = sample_at(jet, next);
+        const twin bend = (here_j - sample_at(jet, system_beside(rows, k, -1))) - (next_j - here_j);
+        store(g, k, bend + (times_conjugate(&m_here, here_j) - times_conjugate(&b_after, next_j)));
     }
     *energy = s.energy[0] + s.energy[1];
     const double by_m = is_constant ? rows->own_loss.m : 1, by_p = is_constant ? rows->own_loss.p : 1;
