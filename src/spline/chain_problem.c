@@ -24,7 +24,7 @@ static bool fits_chain(wiggly_solver *solver, const problem *p)
     if (p->start == WIGGLY_LOOP || !poles_are_constant(desc)) return false;
     const bool oscillates = problem_oscillates(p);
     const constant_filter *f = problem_filter(solver, p);
-    if (oscillates ? f->cut > 0 : p->about != NULL) return false; // only the band knows what a cut changes
+    if (oscillates ? f->cut : p->about != NULL) return false; // only the band knows what a cut changes
     if (p->start == WIGGLY_REST && knot_at(solver, p, 0)->sample < 2)
         return false; // held at a limit: too close to the node at rest
     const bool faint = maths_exp(2 * desc->step * (f->at.s[0].re + f->at.s[1].re)) < least_b;

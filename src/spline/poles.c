@@ -295,15 +295,15 @@ speed_form poles_speed(const poles *at, double step, bool backwards)
                mean = {0.5 * h * (s0.re + s1.re), turn - half};
     const double exact = z.im == 0 ? z_over_sinh(z.re * z.re) : z.im / maths_sin(half),
                  ratio = fmin(fmax(exact, -steepest), steepest);
-    const double cut = fabs(exact) < steepest ? 0 : 2 * cplx_size(z) / steepest;
+    const bool cut = !(fabs(exact) < steepest); // then nothing of the row but Q should count
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
     cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1((cplx){h * s0.re, turn})));
     if (s0.im == -s1.im) on_x.im = q.im = 0; // conjugate or real poles: not even rounding may couple Im x to Re x
     // what remains of on_x is a difference
     const double size = cplx_size(q), part = 8 * DBL_EPSILON * (2 + fabs(z.re) + fabs(mean.re));
     const double first = cplx_size(s0) * fabs(h), moved = fmin(fabs(h * s0.re) + fabs(turn), 2);
-    const speed_loss loss = {8 * DBL_EPSILON * first + part * size * moved + cut * size, part * size, cut};
-    return (speed_form){backwards ? cplx_scale(-1, on_x) : on_x, q, cut, loss};
+    const speed_loss loss = {8 * DBL_EPSILON * first + part * size * moved + cut * first, part * size, cut};
+    return (speed_form){backwards ? cplx_scale(-1, on_x) : on_x, q, loss};
 }
 
 start_cost poles_start_seen_from(start_cost cost, const poles *damped, const poles *at, double step)
@@ -316,7 +316,7 @@ start_cost poles_start_seen_from(start_cost cost, const poles *damped, const pol
         const double share = (here.loss.e / cplx_size(here.on_e) + there.loss.e / cplx_size(there.on_e));
         row->loss.x += row->loss.e * cplx_size(on_x) + cplx_size(row->on_e) * apart;
         row->loss.e = row->loss.e * cplx_size(on_e) + cplx_size(row->on_e) * cplx_size(on_e) * share;
-        row->loss.cut = fmax(here.loss.cut, there.loss.cut);
+        row->loss.cut = here.loss.cut || there.loss.cut;
         row->on_x = cplx_add(row->on_x, cplx_mul(row->on_e, on_x));
         row->on_e = cplx_mul(row->on_e, on_e);
     }

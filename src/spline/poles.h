@@ -60,14 +60,13 @@ static inline cplx coefficients_b(const coefficients *at)
 /// What rounding, and coefficients that are cut, may be to a row: a share of x_j, and one of the differences to its neighbours.
 typedef struct speed_loss {
     double x, e;
-    double cut; ///< not 0: the row may weigh more than it does
+    bool cut; ///< the poles nearly alias to one: on_e should be larger, and so should the row's weight be
 } speed_loss;
 
 /// h times the speed that the poles give from a sample and the difference to its neighbour: on_x x_j + on_e (x_{j+1} − x_j), or backwards with
 /// (x_j − x_{j−1}).
 typedef struct speed_form {
     cplx on_x, on_e;
-    double cut; ///< how much of on_e on_x may be off by, because the poles nearly alias to one; 0: nothing
     speed_loss loss;
 } speed_form;
 

@@ -251,7 +251,7 @@ static void add_slopes(const system_rows *rows, const band_matrix *m, row_errors
         if (s.after >= 0 && (slope->ahead.re != 0 || slope->ahead.im != 0))
             apart += sqrt(norm(sample_at(rows->x, s.after) - here));
         off = slope->loss.x * sqrt(norm(here)) + slope->loss.e * apart + slope->target_error;
-        if (slope->loss.cut > 0) off += fabs(miss);
+        if (slope->loss.cut) off += fabs(miss) + fabs(slope->target);
         // as a row that misses its target, or as a pull
         const double miss_by = off * sqrt(least_cost(rows, m, slope->weight, &s));
         const int at[3] = {s.before, s.at, s.after};
@@ -289,7 +289,7 @@ static void add_start(const system_rows *rows, const band_matrix *m, row_errors 
         if (!alone) g[2] -= on_e.re, g[3] -= on_e.im;
         if (!errors) continue;
         const double off =
-            row->loss.x * cplx_size(x0) + row->loss.e * cplx_size(e0) + (row->loss.cut > 0 ? cplx_size(seen) : 0);
+            row->loss.x * cplx_size(x0) + row->loss.e * cplx_size(e0) + (row->loss.cut ? cplx_size(seen) : 0);
         const double part = 32 * DBL_EPSILON * cplx_size(seen); // of the weight
         errors->misses += row->weight * (off * off + part * part);
         const double first = sqrt(m->spread[0]);

@@ -232,7 +232,7 @@ static void see_speed(const problem *p, slope_row *row)
     poles at = poles_at(p->desc, p->first + row->sample, problem_least_damping(p));
     const double part = 1.0 / (from.ahead + from.behind);
     speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
-    row->loss.cut = fmax(forward.loss.cut, backward.loss.cut);
+    row->loss.cut = forward.loss.cut || backward.loss.cut;
     row->loss.x = part * (from.ahead * forward.loss.x + from.behind * backward.loss.x);
     row->loss.e = part * fmax(forward.loss.e, backward.loss.e);
     if (from.ahead) row->here = cplx_scale(part, forward.on_x), row->ahead = cplx_scale(part, forward.on_e);

@@ -179,10 +179,10 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
     f->ahead = poles_speed(&f->at, desc->step, false);
     f->passive = cplx_scale(desc->step, poles_passive(&own));
     f->tail = poles_tail(poles_passive(&own), &f->ahead, desc->step);
-    f->cut = f->ahead.cut;
+    f->cut = f->ahead.loss.cut;
     if (damped.decay == f->at.decay) return f;
     f->start = poles_start_seen_from(f->start, &damped, &f->at, desc->step);
-    f->cut = fmax(f->cut, poles_speed(&damped, desc->step, false).cut);
+    f->cut = f->cut || poles_speed(&damped, desc->step, false).loss.cut;
     double weight = maths_exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
     for (int i = 0; i < 2; i++) f->start.row[i].weight *= weight;
     return f;

@@ -14,7 +14,7 @@ typedef struct constant_filter {
     double floor;     ///< least damping ratio
     poles at;
     start_cost start; ///< at calm 1; the oscillator's is in units of the jets' weight
-    double cut;       ///< of the speeds that it sees
+    bool cut;         ///< of the speeds that it sees
     cplx lambda, delta2;
     speed_form ahead; ///< the speed that the poles give from a sample and the next
     double unit;      ///< |g|² of the oscillator: unit of all weights but the jets'

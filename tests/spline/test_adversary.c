@@ -72,6 +72,7 @@ TEST(found_before)
         {24, 19482},    // a loop in resonance that winds up: a phase of 1 was rounded like a response of a million
         {29, 18769},    // a response of 1e17 left nothing of the curve, and a curve of nothing had no error
         {28, 14307},    // a loop overdamped a hundred million times: the pull of a step was lost beside its brake
+        {11, 5950},     // a slope whose poles alias to one: its row misses all that a speed adds to the aliased part
         {21, 10954},    // a loop of 70 microhertz: at its seam the gradient's differences were lost beside the jets
         {21, 186},      // a loop in resonance: the errors of u and w were added although w takes u's back
         {21, 492},      // the same without a phase
