@@ -1,9 +1,10 @@
 /// Limits: min E subject to low ≤ total ≤ high (docs/mathematics.md, Limits). Finds which samples are held at a limit, and the curve with
 /// them held.
 //
-// An interior-point method finds them (one_sided.c), on the band's matrix with the motion after the last knot. They are then solved as
-// additional knots; the multipliers are the gradient at the held samples. Each solve starts from the description alone, so the same samples
-// are held and the curve has the same bits, whatever was solved before.
+// Held samples are solved as additional knots; the multipliers are the gradient there. Most curves touch a limit here and there: the farthest
+// samples beyond it are held, and a few exchanges find the right ones. Else an interior-point method finds them (one_sided.c), on the band's
+// matrix with the motion after the last knot. Each solve starts from the description alone, so the same samples are held and the curve has
+// the same bits, whatever was solved before.
 //
 // After the last knot w is free, w = e^{p…} w_L, until a limit pushes it: w = e^{p…} w_L + e, where Re e is the real oscillator's spline from
 // rest at L, through the held samples' remaining distances. These are linear in v = Im w_L, so its energy is quadratic:
@@ -22,7 +23,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { EXCHANGES = 6 };
+enum { EXCHANGES = 8 };
 
 static const double beyond = 1e-10; ///< share of the total's size by which a sample may miss a limit
 static const double rounded = 1e-5; ///< share of that which is rounding
@@ -422,7 +423,8 @@ static double largest_move(limits_work *w, double *force)
 static double pull_of(const limits_work *w, int sample)
 {
     const limit_memory *m = &w->solver->limits;
-    return is_held(w, sample) ? fmax(0, -m->held[sample] * m->pull[sample]) : 0;
+    const double push = is_held(w, sample) ? m->held[sample] * m->pull[sample] : 0;
+    return push < 0 ? -push : 0;
 }
 
 /// How far x would move if samples pulled by limits were freed; 0 if none is.
@@ -468,7 +470,10 @@ static double moved_if_held(limits_work *w, double slack)
 static double find_slack(const limits_work *w)
 {
     double most = 0;
-    for (int i = w->from; i <= w->to; i++) most = fmax(most, fabs(total_of(w, i)));
+    for (int i = w->from; i <= w->to; i++) {
+        const double size = fabs(total_of(w, i));
+        if (size > most) most = size;
+    }
     return beyond * most;
 }
 
@@ -476,7 +481,10 @@ static double find_slack(const limits_work *w)
 static double find_excess(const limits_work *w)
 {
     double most = 0;
-    for (int i = w->from; i <= w->to; i++) most = fmax(most, is_held(w, i) ? 0 : fabs(excess_of(w, i, 0)));
+    for (int i = w->from; i <= w->to; i++) {
+        const double by = is_held(w, i) ? 0 : fabs(excess_of(w, i, 0));
+        if (by > most) most = by;
+    }
     return most;
 }
 
@@ -503,24 +511,66 @@ static bool limits_begin(void *user)
     return true;
 }
 
-/// Frees samples that are pulled, and holds the farthest sample of each stretch beyond a limit.
+/// Frees samples that are pulled, and holds the farthest sample beyond a limit of each gap between knots.
 static void exchange(limits_work *w, double slack)
 {
     signed char *held = w->solver->limits.held;
-    double hardest = 0;
-    for (int i = w->from; i <= w->to; i++) hardest = fmax(hardest, pull_of(w, i));
+    double hardest = 0, most = 0;
+    int farthest = -1;
     for (int i = w->from; i <= w->to; i++) {
-        const double by = held[i] == LIMITS_FREE ? excess_of(w, i, slack) : 0, sign = by > 0 ? 1 : -1;
+        const double pull = pull_of(w, i);
+        if (pull > hardest) hardest = pull;
+    }
+    for (int i = w->from; i <= w->to; i++) {
+        const double by = held[i] == LIMITS_FREE ? excess_of(w, i, slack) : 0;
+        if (fabs(by) > fabs(most)) most = by, farthest = i;
         if (pull_of(w, i) > faint * hardest) held[i] = LIMITS_FREE;
-        if (by == 0 || (i > w->from && sign * excess_of(w, i - 1, 0) > fabs(by)) ||
-            (i < w->to && sign * excess_of(w, i + 1, 0) >= fabs(by)))
-            continue;
-        held[i] = by > 0 ? LIMITS_HIGH : LIMITS_LOW;
+        if (farthest >= 0 && (held[i] == LIMITS_KEYED || i == w->to)) {
+            held[farthest] = most > 0 ? LIMITS_HIGH : LIMITS_LOW;
+            most = 0, farthest = -1;
+        }
     }
 }
 
-/// Solves with the samples that the search holds. This is right if no sample exceeds a limit and no limit pulls. If it is nearly right, a few
-/// exchanges correct it.
+/// Exchanges a few held samples until the curve is right, or there is no room. It is if no sample exceeds a limit and no limit pulls.
+static bool settle_held(limits_work *w)
+{
+    for (int n = 0; w->has_room; n++) {
+        const double slack = find_slack(w), excess = find_excess(w);
+        const bool is_within = excess <= slack;
+        if (is_within || n == EXCHANGES) w->missed = fmax(excess, moved_if_freed(w));
+        const bool is_right = is_within && w->missed <= slack;
+        if (is_right && (n == EXCHANGES || moved_if_held(w, rounded * slack) <= slack)) return true;
+        if (n == EXCHANGES) return false;
+        exchange(w, is_right ? rounded * slack : slack);
+        w->has_room = solve_held(w);
+    }
+    return true;
+}
+
+static int count_beyond(const limits_work *w, double slack)
+{
+    int count = 0;
+    for (int i = w->from; i <= w->to; i++) count += !is_held(w, i) && excess_of(w, i, slack) != 0;
+    return count;
+}
+
+/// Most curves touch a limit here and there, and exchanges alone find where. If a first one leaves half of what was beyond the limits, the curve
+/// runs along them, and only the search finds how far.
+static bool touches(limits_work *w)
+{
+    const double slack = find_slack(w);
+    const int before = count_beyond(w, slack);
+    if (before == 0) return true;
+    exchange(w, slack);
+    w->attempts++; // the search frees what is held
+    w->has_room = solve_held(w);
+    const bool found = w->has_room && 2 * count_beyond(w, slack) <= before && settle_held(w) && w->has_room;
+    w->has_room = true;
+    return found;
+}
+
+/// Solves with the samples that the search holds.
 static bool limits_finish(void *user)
 {
     limits_work *w = user;
@@ -528,31 +578,8 @@ static bool limits_finish(void *user)
         const double sign = one_sided_holds(&w->search, i);
         if (sign != 0) w->solver->limits.held[w->from + i] = sign < 0 ? LIMITS_HIGH : LIMITS_LOW;
     }
-    for (int n = 0;; n++) {
-        w->has_room = solve_held(w);
-        if (!w->has_room) return true;
-        const double slack = find_slack(w);
-        w->missed = fmax(find_excess(w), moved_if_freed(w));
-        const bool is_right = w->missed <= slack;
-        if (is_right && (n == EXCHANGES || moved_if_held(w, rounded * slack) <= slack)) return true;
-        if (n == EXCHANGES) return false;
-        exchange(w, is_right ? rounded * slack : slack);
-    }
-}
-
-/// In a loop held by nothing else, one sample, the farthest, may be enough.
-static bool rests_on_one(limits_work *w)
-{
-    double slack = find_slack(w), most = slack;
-    int at = -1;
-    for (int i = w->body.from; i <= w->body.to; i++) {
-        const double by = fabs(excess_of(w, i, 0));
-        if (by > most) most = by, at = i;
-    }
-    if (at < 0 || problem_is_asked(w->p)) return false;
-    w->solver->limits.held[at] = excess_of(w, at, 0) > 0 ? LIMITS_HIGH : LIMITS_LOW;
-    w->attempts++; // held samples have to be freed
-    return solve_held(w) && find_excess(w) <= slack && moved_if_freed(w) <= slack;
+    w->has_room = solve_held(w);
+    return settle_held(w);
 }
 
 int limits_prepare(wiggly_solver *solver, problem *p, wiggly_desc *ordered)
@@ -624,7 +651,7 @@ wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
         .sign = -1, .gap = m->free[1], .push = m->pushed[1], .by_gap = m->spare, .by_push = x + n};
     if (p->desc->low > -INFINITY) w.search.limit[w.search.limits++] = low;
     if (p->desc->high < INFINITY) w.search.limit[w.search.limits++] = high;
-    const bool found = rests_on_one(&w) || one_sided_solve(&w.search, find_slack(&w));
+    const bool found = touches(&w) || one_sided_solve(&w.search, find_slack(&w));
     if (!w.has_room) return WIGGLY_ERROR_CAPACITY;
     result->error +=
         found ? 2 * moved_if_held(&w, rounded * find_slack(&w)) : reach * fmax(w.missed, find_excess(&w));
