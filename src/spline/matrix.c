@@ -139,16 +139,6 @@ WIDEST static void square(int count, const double *restrict mr, const double *re
     }
 }
 
-static void square_alike(const system_rows *rows, band_matrix *m)
-{
-    const cplx a = coefficients_a(&rows->own), b = coefficients_b(&rows->own);
-    m->alike = (band_block){.d = {0}};
-    m->alike.d[0] = m->alike.d[2] = cplx_norm(a) + cplx_norm(b) + 1;
-    put_complex(m->alike.e, cplx_scale(-1, cplx_add(a, cplx_mul(cplx_conj(a), b))));
-    put_complex(m->alike.f, b);
-    if (rows->is_complex) m->alike.d[2] += rows->own_im;
-}
-
 void system_matrix(const system_rows *rows, band_matrix *m)
 {
     const int n = rows->count;
@@ -162,7 +152,12 @@ void system_matrix(const system_rows *rows, band_matrix *m)
     m->stiffness = NULL;
     for (int k = 0; k < n; k++) rows->fixed[k] &= (unsigned char)~(BAND_OWN | BAND_BESIDE);
     if (rows->is_constant) {
-        square_alike(rows, m);
+        const cplx a = coefficients_a(&rows->own), b = coefficients_b(&rows->own);
+        m->alike = (band_block){.d = {0}};
+        m->alike.d[0] = m->alike.d[2] = cplx_norm(a) + cplx_norm(b) + 1;
+        put_complex(m->alike.e, cplx_scale(-1, cplx_add(a, cplx_mul(cplx_conj(a), b))));
+        put_complex(m->alike.f, b);
+        if (rows->is_complex) m->alike.d[2] += rows->own_im;
     } else if (n > 1) {
         square(n - 1, rows->m_re, rows->m_im, rows->p_re, rows->p_im, rows->jet_weight, m->d, m->e_re, m->e_im,
                m->f_re, m->f_im);

@@ -240,9 +240,6 @@ void poles_mean(const poles *at, double step, cplx *lambda, cplx *delta2)
     *delta2 = cplx_mul(delta, delta);
 }
 
-/// |1 − exp(z)|².
-static double distance_from_one(cplx z) { return cplx_norm(cplx_expm1(z)); }
-
 start_cost poles_start_cost(const poles *at, double step)
 {
     const cplx *s = at->s;
@@ -255,7 +252,7 @@ start_cost poles_start_cost(const poles *at, double step)
     cplx sum = {-mp.re - cplx_norm(p), 2 * p.im - mp.im};
     double decay = -maths_expm1(2 * step * s[0].re),
            other = s[1].re == s[0].re ? decay : -maths_expm1(2 * step * s[1].re);
-    double det = decay * other * distance_from_one((cplx){step * (s[0].re + s[1].re), 2 * at->half});
+    double det = decay * other * cplx_norm(cplx_expm1((cplx){step * (s[0].re + s[1].re), 2 * at->half}));
     cplx e = {sum.re / h00, -sum.im / h00}; // |x₀ + (e−1) x₁|², x₁ = x₀ + e₀
     const double unit = 16 * DBL_EPSILON,
                  of_e = unit * (cplx_size(sum) + cplx_norm(p) + sqrt(cplx_norm(p) * cplx_norm(m))) / h00;

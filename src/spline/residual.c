@@ -307,14 +307,6 @@ static void add_pulls(const system_rows *rows)
     }
 }
 
-/// The imaginary rows.
-static void add_imaginary(const system_rows *rows)
-{
-    if (!rows->is_complex) return;
-    for (int k = 0; k < rows->count; k++)
-        rows->gradient[2 * k + 1] -= (rows->is_constant ? rows->own_im : rows->im_weight[k]) * rows->x[2 * k + 1];
-}
-
 /// Known values are rounded, and so is each as far as it moves the rows that see it.
 static void add_known(const system_rows *rows, const band_matrix *m, row_errors *errors)
 {
@@ -369,7 +361,8 @@ void system_gradient(const system_rows *rows, const band_matrix *m, row_errors *
     add_pulls(rows);
     add_slopes(rows, m, errors);
     add_start(rows, m, errors);
-    add_imaginary(rows);
+    for (int k = 0; k < rows->count && rows->is_complex; k++)
+        rows->gradient[2 * k + 1] -= (rows->is_constant ? rows->own_im : rows->im_weight[k]) * rows->x[2 * k + 1];
 }
 
 static void load(const system_rows *rows, int k, cplx by)

@@ -47,13 +47,6 @@ double problem_im_weight(const problem *p, double natural)
     return 1 / (i2 * i2 * (1 + phase4 * phase4));
 }
 
-/// g = exp((s₀+s₁)h/2) at a block's sample; real outside complex mode.
-static cplx drive_phase(const poles_block *block, int i, const wiggly_desc *desc)
-{
-    double turn = desc->mode == WIGGLY_COMPLEX ? block->centre[i] * desc->step : 0;
-    return cplx_exp((cplx){-0.5 * block->exponent[i], turn});
-}
-
 static double highest_from(const problem *p, int from, int to)
 {
     double highest = 0;
@@ -130,8 +123,10 @@ static void set_varying(system_rows *rows, const problem *p, bool weighted)
             const coefficient_loss loss = poles_fast_loss(&own, desc->step, &at);
             rows->loss_m[k + i] = loss.m, rows->loss_p[k + i] = loss.p;
         }
-        for (int i = 0; i < count && rows->driven; i++)
-            set_drive(rows, p, k + i, drive_phase(&block, i, desc), weight[k + i]);
+        for (int i = 0; i < count && rows->driven; i++) {
+            const double turn = desc->mode == WIGGLY_COMPLEX ? block.centre[i] * desc->step : 0;
+            set_drive(rows, p, k + i, cplx_exp((cplx){-0.5 * block.exponent[i], turn}), weight[k + i]);
+        }
         if (rows->is_complex) set_im_weights(p, block.natural, count, weighted, rows->im_weight + k);
         for (int i = 0; i < count && rows->is_complex && oscillates; i++) {
             if (k + i > end) highest = highest_around(p, k + i, &end);
@@ -163,19 +158,6 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     rows->fast = cplx_norm(rows->own.rest.a) + cplx_norm(rows->own.rest.b) > 0;
     if (rows->fast) rows->own_loss = poles_fast_loss(at, desc->step, &rows->own);
     for (int k = 0; k < rows->count && rows->driven; k++) set_drive(rows, p, k, rows->own.g, 1);
-}
-
-/// The paper's slope (eq. 9): a difference of the total.
-static slope_row filter_slope(const problem *p, int k, double slope, double stiffness)
-{
-    bool last = p->start != WIGGLY_LOOP && k == p->count - 1;
-    double h = p->desc->step, from = about_at(p, last ? k - 1 : k), to = about_at(p, last ? k : k + 1);
-    return (slope_row){.sample = k,
-                       .ahead.re = last ? 0 : 1,
-                       .behind.re = last ? 1 : 0,
-                       .weight = fmin(stiffness * h, STIFFEST),
-                       .target = h * slope - (to - from),
-                       .target_error = 2 * DBL_EPSILON * (fabs(h * slope) + fabs(to - from))};
 }
 
 /// How much a cubic's one-sided speed of the total exceeds the two-sided speed of x and the equilibrium.
@@ -244,8 +226,18 @@ static void see_speed(const problem *p, slope_row *row)
 
 slope_row problem_slope(const problem *p, int sample, double slope, double stiffness)
 {
-    int k = sample - p->first;
-    return problem_oscillates(p) ? oscillator_slope(p, k, slope, stiffness) : filter_slope(p, k, slope, stiffness);
+    const int k = sample - p->first;
+    if (problem_oscillates(p)) return oscillator_slope(p, k, slope, stiffness);
+
+    // The paper's slope (eq. 9): a difference of the total.
+    bool last = p->start != WIGGLY_LOOP && k == p->count - 1;
+    double h = p->desc->step, from = about_at(p, last ? k - 1 : k), to = about_at(p, last ? k : k + 1);
+    return (slope_row){.sample = k,
+                       .ahead.re = last ? 0 : 1,
+                       .behind.re = last ? 1 : 0,
+                       .weight = fmin(stiffness * h, STIFFEST),
+                       .target = h * slope - (to - from),
+                       .target_error = 2 * DBL_EPSILON * (fabs(h * slope) + fabs(to - from))};
 }
 
 static void add_slope(system_rows *rows, const problem *p, int sample, double slope, double stiffness)

@@ -23,16 +23,6 @@ void *arena_take(arena *a, size_t count, size_t size)
 
 enum { LINE = 64, POWER_COLUMNS = 8 }; ///< LINE: size of a cache line, to which columns are aligned
 
-/// Columns of `numbers` each, one after the other.
-static void lay_out_columns(unsigned char *at, double **const *columns, int count, size_t numbers)
-{
-    for (int i = 0; i < count && at; i++) {
-        at += (LINE - (uintptr_t)at % LINE) % LINE;
-        *columns[i] = (double *)(void *)at;
-        at += numbers * sizeof(double);
-    }
-}
-
 /// Arrays of `samples` numbers. The factor comes first: the chain's tables share its memory, and are larger for few samples. A loop's
 /// response to a moving equilibrium is found before all that is in im_weight and the arrays after it.
 static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
@@ -90,7 +80,12 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
         }
     }
     at->response.room = rows->im_weight;
-    lay_out_columns((unsigned char *)m->record, powers, POWER_COLUMNS, samples);
+    unsigned char *column = (unsigned char *)m->record;
+    for (int i = 0; i < POWER_COLUMNS && column; i++) {
+        column += (LINE - (uintptr_t)column % LINE) % LINE;
+        *powers[i] = (double *)(void *)column;
+        column += samples * sizeof(double);
+    }
 }
 
 static wiggly_solver *lay_out(arena *a, int samples, int knots)

@@ -51,12 +51,6 @@ static double fade_of(const poles *at)
     return v * v * (3 - 2 * v);
 }
 
-/// The slope that w must have.
-static double slope_of(const problem *p, const wiggly_knot *knot)
-{
-    return knot->slope - (p->y ? p->response.speed[knot->sample] : 0);
-}
-
 static goal goal_of(const wiggly_solver *solver, const problem *p, const wiggly_knot *knot)
 {
     goal to = {.w.re = problem_knot_re(p, knot), .is_whole = problem_is_whole(p, knot)};
@@ -65,7 +59,7 @@ static goal goal_of(const wiggly_solver *solver, const problem *p, const wiggly_
     if (to.is_whole || !knot->has_slope) return to;
     const poles at = poles_here(solver, p, knot->sample);
     const double h = p->desc->step;
-    to.slope = slope_of(p, knot);
+    to.slope = knot->slope - (p->y ? p->response.speed[knot->sample] : 0);
     to.pull = fade_of(&at) * fmin(knot_stiffness(knot), STIFFEST) * (h * h * h);
     return to;
 }
