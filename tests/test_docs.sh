@@ -175,6 +175,7 @@ missing=$(printf '%s\n' "${goals[@]}" | sed -n 's/^TESTS=//p' | tr ' ' '\n' | wh
 variables=$(printf '%s\n' "${goals[@]}" | sed -n 's/=.*//p' | while read -r name; do grep -qE "\b$name\b" Makefile tools/*.mk tools/*.sh || echo "$name"; done)
 holds "and each test and variable is there" [ -z "$missing$variables" ]
 
+grep -rohIE "[a-z_][a-z0-9_]*\(" src include tests python/src | sort -u >"$scratch/called"
 for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
     missing=$(
         grep -oE '\]\([^)]*\)' "$document" | tr -d '[]()' | while read -r link; do
@@ -185,8 +186,7 @@ for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
         grep -oE '`(assets|docs|examples|include|src|shaders|tests|tools)/[^` *]*`' "$document" | tr -d '`' |
             while read -r path; do [ -e "$path" ] || echo "$path"; done
         grep -oE '`test_[a-z0-9_]+`' "$document" | tr -d '`' | while read -r test; do ls tests/*/"$test.c" >/dev/null 2>&1 || echo "$test"; done
-        grep -oE '[a-z_]+[a-z0-9_]*\(\)' "$document" | sort -u | tr -d '()' |
-            while read -r name; do grep -qrE "\b$name\(" src include tests python/src || echo "$name()"; done
+        grep -oE '[a-z_]+[a-z0-9_]*\(\)' "$document" | tr -d ')' | sort -u | comm -23 - "$scratch/called"
     )
     [ -z "$missing" ] || echo "  not there:" $missing
     holds "$document: files and links are there" [ -z "$missing" ]
