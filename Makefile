@@ -5,7 +5,7 @@
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
 #   make test     builds and runs every test (TESTS="spline test_curves a_case" for rooms, files and cases; JOBS=1 for one at a time)
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen,
-#                 and in browsers, Blender, Python and Node
+#                 browsers, Blender, Python and Node
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
 #   make npm      the npm package, in build/npm
 #   make wheel    the Python package for every platform, in build/wheels (PLATFORMS="win_amd64" for one); fetches zig

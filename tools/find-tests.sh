@@ -1,8 +1,11 @@
 #!/bin/sh
 # Prints the tests that the words name: FILE or FILE:CASE. A word is a room (spline), a file (test_curves, curves.c, spline/test_spline,
-# tests/test_cli.sh) or a case. Without a word: all of them, but those in browsers, Blender, Python and Node only with THOROUGH=1.
+# tests/test_cli.sh) or a case. Without a word: all of them, but the rooms faults and hosts only with THOROUGH=1.
 cd "$(dirname "$0")/.." || exit 1
-[ $# -gt 0 ] || set -- tests/*/test_*.c tests/test_*.sh ${THOROUGH:+tests/hosts/test_*.sh}
+if [ $# -eq 0 ]; then
+    for test in tests/*/test_*.c; do [ "${test#tests/faults/}" != "$test" ] || set -- "$@" "$test"; done
+    set -- "$@" tests/test_*.sh ${THOROUGH:+faults hosts}
+fi
 for word in "$@"; do
     path=tests/${word#tests/}
     name=${word##*/}
