@@ -11,17 +11,13 @@ for solver in chain band; do
 done
 "$WIGGLY" solve assets/scenes/figure4.json | cmp - "$scratch/band.csv"
 ok "the band is the default" $?
-long() { printf '{"frames": [0, %s], "splines": [{"name": "s", "frequency": 1, "knots": [{"frame": 9, "value": 1}, {"frame": 99, "value": 2}, {"frame": %s, "value": 1}]}]}' "$1" "$2"; }
-by_default() # way last knot
-{
-    long "$2" "$3" >"$scratch/long.json"
-    "$WIGGLY" solve "$scratch/long.json" | cmp - <("$WIGGLY" solve --solver $1 "$scratch/long.json")
-    ok "of $(($2 + 1)) samples and a gap of $(($3 - 99)) it is the $1" $?
+by_default() { # <way> <last frame>
+    printf '{"frames": [0, %s], "splines": [{"name": "s", "frequency": 1, "knots": [{"frame": 9, "value": 1}, {"frame": 99, "value": 2}]}]}' "$2" >"$scratch/long.json"
+    "$WIGGLY" solve "$scratch/long.json" | cmp - <("$WIGGLY" solve --solver "$1" "$scratch/long.json")
+    ok "of $(($2 + 1)) samples it is the $1" $?
 }
-by_default band 4095 399
-by_default chain 4096 399
-by_default chain 4095 400
-by_default band 2000 399
+by_default band 4095
+by_default chain 4096
 holds "the band is another way" not cmp -s "$scratch/chain.csv" "$scratch/band.csv"
 paste -d, "$scratch/chain.csv" "$scratch/band.csv" | awk -F, 'NR > 1 { n = NF / 2; for (i = 1; i <= n; i++) if (($i - $(n + i)) ^ 2 > 1e-18) exit 1 }'
 ok "to the same curves" $?

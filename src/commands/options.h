@@ -50,8 +50,8 @@ struct usage {
 /// enum solver_choice.
 #define OPTION_SOLVER(solver)                                                                                        \
     {                                                                                                                \
-        "--solver chain|band", "chain: fast, band: reference (default: band up to 4096 samples, 300 between knots)", \
-            OPTION_WORD, solver, 0, 0                                                                                \
+        "--solver chain|band", "chain: fast, band: reference (default: band up to 4096 samples)", OPTION_WORD,       \
+            solver, 0, 0                                                                                             \
     }
 /// 1 + enum theme_kind.
 #define OPTION_THEME(theme, help)                                                                                    \

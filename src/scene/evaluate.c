@@ -829,7 +829,7 @@ static void solve_alone(struct evaluation *evaluation, const struct document *do
     wiggly_desc desc = describe(evaluation, document, spline, cubic);
     assert(document->splines[spline]->knot_count <= storage->solver_knots);
     add_knots(&desc, document, spline, storage->knots);
-    wiggly_set_method(storage->solver, evaluation_method(evaluation, &desc));
+    wiggly_set_method(storage->solver, evaluation_method(evaluation));
     const wiggly_status status = wiggly_solve(storage->solver, &desc, curve);
     if (status >= WIGGLY_ERROR_ARGUMENT) flatten(curve, &desc);
     count_solved(evaluation, document, spline, status);
@@ -1006,33 +1006,16 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     }
 }
 
-static bool is_band(const struct evaluation *evaluation)
+wiggly_method evaluation_method(const struct evaluation *evaluation)
 {
-    if (evaluation->solver != SOLVER_BY_LENGTH) return evaluation->solver == SOLVER_BAND;
-    return evaluation->samples <= SOLVER_LONGEST_BAND;
+    if (evaluation->solver != SOLVER_BY_LENGTH) return evaluation->solver == SOLVER_BAND ? WIGGLY_BAND : WIGGLY_CHAIN;
+    return evaluation->samples <= SOLVER_LONGEST_BAND ? WIGGLY_BAND : WIGGLY_CHAIN;
 }
 
-wiggly_method evaluation_method(const struct evaluation *evaluation, const wiggly_desc *desc)
+const char *evaluation_solver(const struct evaluation *evaluation)
 {
-    if (!is_band(evaluation)) return WIGGLY_CHAIN;
-    if (evaluation->solver != SOLVER_BY_LENGTH) return WIGGLY_BAND;
-
-    // The longest stretch without a knot: between two, from rest, and after the last where jets reach there.
-    const int knots = desc->knot_count, last = desc->samples - 1;
-    int longest = 0;
-    for (int k = 1; k < knots; k++) {
-        const int gap = desc->knots[k].sample - desc->knots[k - 1].sample;
-        longest = gap > longest ? gap : longest;
-    }
-    const int before = knots > 0 ? desc->knots[0].sample : last,
-              after = knots > 0 ? last - desc->knots[knots - 1].sample : 0;
-    const bool reaches = desc->mode == WIGGLY_REAL || desc->passive == WIGGLY_FILTER;
-    if (desc->start == WIGGLY_REST && before > longest) longest = before;
-    if (reaches && after > longest) longest = after;
-    return longest > SOLVER_LONGEST_GAP ? WIGGLY_CHAIN : WIGGLY_BAND;
+    return evaluation_method(evaluation) == WIGGLY_BAND ? "band" : "chain";
 }
-
-const char *evaluation_solver(const struct evaluation *evaluation) { return is_band(evaluation) ? "band" : "chain"; }
 
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position)
 {

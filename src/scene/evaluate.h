@@ -6,11 +6,11 @@
 
 /// Methods of solving. Their curves differ only by rounding; a document always gives the same bits.
 enum solver_choice {
-    SOLVER_BY_LENGTH, ///< up to so many samples, and so many from knot to knot, by the paper's band, longer ones by the chain
+    SOLVER_BY_LENGTH, ///< up to so many samples by the paper's band, longer ones by the chain
     SOLVER_CHAIN,
     SOLVER_BAND,
 };
-enum { SOLVER_LONGEST_BAND = 4096, SOLVER_LONGEST_GAP = 300 };
+enum { SOLVER_LONGEST_BAND = 4096 };
 
 struct evaluation;
 
@@ -105,8 +105,8 @@ bool evaluation_is_of(const struct evaluation *evaluation, const struct document
 wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
                                 wiggly_knot *knots);
 
-/// The method that solves a spline with that description, and the name of its splines' own: "chain" or "band".
-wiggly_method evaluation_method(const struct evaluation *evaluation, const wiggly_desc *desc);
+/// The method that solves the splines, and its name: "chain" or "band".
+wiggly_method evaluation_method(const struct evaluation *evaluation);
 const char *evaluation_solver(const struct evaluation *evaluation);
 
 /// The motion of the joint that a spline's equilibrium follows, times gain: one number per sample. NULL if it follows none.

@@ -95,7 +95,7 @@ static void assert_solved(struct stand *stand, int index, double gain)
         .size = sizeof curve, .total = rows, .y = rows + count, .re = rows + 2 * count, .im = rows + 3 * count};
     wiggly_solver *solver;
     assert_int_equal(wiggly_create(count, 1, &solver), WIGGLY_OK);
-    wiggly_set_method(solver, evaluation_method(&stand->evaluation, &desc));
+    wiggly_set_method(solver, evaluation_method(&stand->evaluation));
     assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
     const wiggly_curve *own = &stand->evaluation.curves[index];
     assert_memory_equal(own->y, curve.y, (size_t)count * sizeof *curve.y);
