@@ -187,7 +187,8 @@ static const struct {
 } controls[CONTROLS] = {
     [PLAY] = {"play", "Play, pause (Space)", 24, playback_toggle, 0},
     [LOOP] = {"loop", "Loop or stop at the end (Ctrl+L)", 42, core_flip, SWITCH_LOOP},
-    [SPEED] = {"speed", "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)", 44},
+    [SPEED] = {"speed", "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)", 44,
+               NULL, 0},
     [AUTO_KEY] = {"auto-key",
                   "Auto-key: dragging the body sets knots at the playhead; off, it moves the whole shot (Shift+A)",
                   64, core_flip, SWITCH_AUTO_KEY},
@@ -196,7 +197,8 @@ static const struct {
               "(Alt+A)",
               48, core_flip, SWITCH_KEEP},
     [SIZE] = {"size",
-              "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)", 48},
+              "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)", 48,
+              NULL, 0},
     [PRESENT] = {"present", "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
                  28, presenter_toggle, 0},
 };
