@@ -23,6 +23,7 @@ static inline int numbers_of(const struct gltf_view *v, const char *word, double
     const struct gltf_node *node = &g->nodes[v->node];
     const struct gltf_place *place = &v->pose.place[v->node];
     const float *world = v->pose.world[v->node];
+    const bool has_target = p->targets && v->target < g->meshes[0].target_count;
     const int n = p->vertex_count, count = gltf_vertex_count(g, v->node);
     assert_true(n <= FACTS_VERTICES && count <= FACTS_VERTICES && p->index_count <= FACTS_NUMBERS);
     gltf_pose_vertices(g, &v->pose, v->node, (float(*)[3])posed, (float(*)[3])turned);
@@ -35,7 +36,7 @@ static inline int numbers_of(const struct gltf_view *v, const char *word, double
                  {"uv", p->uv, 2 * n},
                  {"color", p->color, 4 * n},
                  {"weights", p->weights, GLTF_INFLUENCES * n},
-                 {"moves", p->targets ? p->targets[v->target].position : NULL, 3 * n},
+                 {"moves", has_target ? p->targets[v->target].position : NULL, 3 * n},
                  {"posed", posed, 3 * count}, // of the node, in the pose
                  {"turned", turned, 3 * count},
                  {"translation", place->translation, 3},
@@ -65,7 +66,8 @@ static inline int numbers_of(const struct gltf_view *v, const char *word, double
     }
     for (int i = 0; i < 9; i++) out[i] = (double)world[i / 3 * 4 + i % 3];
     if (strcmp(word, "axes") == 0) return 9;
-    for (int i = 0; p->joints && i < GLTF_INFLUENCES * n; i++) out[i] = p->joints[0][i];
+    for (int i = 0; p->joints && i < GLTF_INFLUENCES * n; i++)
+        out[i] = p->joints[i / GLTF_INFLUENCES][i % GLTF_INFLUENCES];
     if (strcmp(word, "joints") == 0) return p->joints ? GLTF_INFLUENCES * n : 0;
     for (int i = 0; i < p->index_count; i++) out[i] = p->indices[i];
     return strcmp(word, "indices") == 0 ? p->index_count : -1;
