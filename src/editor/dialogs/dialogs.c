@@ -43,6 +43,35 @@ static int question_key(struct dialog *dialog, int key)
     return QUESTION_UNUSED;
 }
 
+static void dialog_close(struct dialogs *dialogs)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    dialog->kind = DIALOG_NONE;
+    dialog->awaited = REQUEST_NONE;
+    dialog->after.kind = REQUEST_NONE;
+}
+
+/// Carries out a request that had to wait; REQUEST_OPEN without a path asks for one.
+static void dialog_go_on(struct dialogs *dialogs, const struct request *after)
+{
+    if (after->kind == REQUEST_OPEN && !after->path[0]) {
+        dialog_open(dialogs, DIALOG_OPEN, "");
+    } else if (after->kind != REQUEST_NONE) {
+        core_request(dialogs->core, after);
+    }
+}
+
+/// Sends a request to the app; the dialog ignores input until dialogs_answer().
+static void dialog_await(struct dialogs *dialogs, enum request_kind kind, const char *path)
+{
+    struct request request = {
+        .kind = kind, .number = dialogs->core->focus.active, .wish = dialogs->exporting.memory.wish};
+    snprintf(request.path, sizeof request.path, "%s", path);
+    dialogs->dialog.error[0] = '\0';
+    dialogs->dialog.awaited = kind;
+    core_request(dialogs->core, &request);
+}
+
 bool dialogs_ask(struct dialogs *dialogs)
 {
     const struct question question = dialogs->core->question;
@@ -632,38 +661,11 @@ void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *pat
     dialog_match(dialog);
 }
 
-void dialog_close(struct dialogs *dialogs)
-{
-    struct dialog *dialog = &dialogs->dialog;
-    dialog->kind = DIALOG_NONE;
-    dialog->awaited = REQUEST_NONE;
-    dialog->after.kind = REQUEST_NONE;
-}
-
 void dialogs_save_as(struct dialogs *dialogs)
 {
     const struct core *core = dialogs->core;
     const char *name = path_has_end(core_title(core), ".json") ? core_title(core) : "untitled.json";
     dialog_open(dialogs, DIALOG_SAVE_AS, core_path(core)[0] ? core_path(core) : name);
-}
-
-void dialog_go_on(struct dialogs *dialogs, const struct request *after)
-{
-    if (after->kind == REQUEST_OPEN && !after->path[0]) {
-        dialog_open(dialogs, DIALOG_OPEN, "");
-    } else if (after->kind != REQUEST_NONE) {
-        core_request(dialogs->core, after);
-    }
-}
-
-void dialog_await(struct dialogs *dialogs, enum request_kind kind, const char *path)
-{
-    struct request request = {
-        .kind = kind, .number = dialogs->core->focus.active, .wish = dialogs->exporting.memory.wish};
-    snprintf(request.path, sizeof request.path, "%s", path);
-    dialogs->dialog.error[0] = '\0';
-    dialogs->dialog.awaited = kind;
-    core_request(dialogs->core, &request);
 }
 
 bool dialogs_answer(struct dialogs *dialogs, const struct request *request, bool ok, const char *text)

@@ -95,11 +95,6 @@ struct dialogs {
 
 /// `path` may be "".
 void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path);
-void dialog_close(struct dialogs *dialogs);
-/// Carries out a request that had to wait; REQUEST_OPEN without a path asks for one.
-void dialog_go_on(struct dialogs *dialogs, const struct request *after);
-/// Sends a request to the app; the dialog ignores input until dialogs_answer().
-void dialog_await(struct dialogs *dialogs, enum request_kind kind, const char *path);
 
 /// Typing searches, the wheel and drags scroll, Esc closes. In F1 arrows scroll, and Enter or a click closes. In the palette arrows choose,
 /// and Enter or a click runs a command. true for keys, text, buttons, drags and wheel while it is open.

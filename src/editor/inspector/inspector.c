@@ -282,7 +282,8 @@ bool inspector_target(struct inspector *in, const char *name, float *x, float *y
     return found;
 }
 
-bool inspector_changed(enum ui_change change) { return change == UI_DROP || change == UI_SET || change == UI_NUDGE; }
+/// Whether a change is finished, not a step of a drag.
+static bool is_finished(enum ui_change change) { return change == UI_DROP || change == UI_SET || change == UI_NUDGE; }
 
 bool inspector_step(struct inspector *in, enum ui_change change, const char *label, const char *what)
 {
@@ -344,7 +345,8 @@ int inspector_icons(struct inspector *in, struct rect r, const struct row *rows,
     return pressed;
 }
 
-int inspector_buttons(struct inspector *in, const struct row *rows, int count)
+/// Buttons of one width; the pressed one, or -1.
+static int build_buttons(struct inspector *in, const struct row *rows, int count)
 {
     enum { GAP = 4 };
     struct rect r = ui_row(&in->ui, UI_ROW);
@@ -426,7 +428,7 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
         return UI_NONE;
     }
     if (home->settles || !row->undo) {
-        if (opens(in, home->settles ? inspector_changed(change) : change != UI_NONE, row->undo))
+        if (opens(in, home->settles ? is_finished(change) : change != UI_NONE, row->undo))
             home->set(in, which, value, &core->step.error);
         if (change == UI_DRAG) in->dragged = value;
         return change;
@@ -734,7 +736,7 @@ static void build_knots(struct inspector *in, int field, struct rect r)
         if (field == FIELD_SLOPE) row.ui.label = NULL; // its switch has the label
         if (field == FIELD_STIFFNESS && value < 10) row.ui.decimals = 3;
     }
-    if (inspector_changed(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
+    if (is_finished(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
 }
 
 /// Whether all selected knots have slopes. Among several, a still one counts as having one.
@@ -778,7 +780,7 @@ static void build_holds(struct inspector *in)
          .lit = lit == HOLDS_STILL},
         {NAMED("settles", "Settle"),
          .hint = "Let the motion stay here: it overshoots the value and swings about it (Alt+P)", .lit = settles}};
-    const int pressed = inspector_buttons(in, rows, 4);
+    const int pressed = build_buttons(in, rows, 4);
     if (pressed == 3) {
         core_toggle_settles(in->core, 0);
     } else if (pressed >= 0 && pressed != lit) {
@@ -847,7 +849,7 @@ void inspector_knot(struct inspector *in)
              .hint = "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
             {NAMED("slope.switch", sloped ? "Remove" : "Add"),
              .hint = sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)"}};
-        const int pressed = inspector_buttons(in, rows, 3);
+        const int pressed = build_buttons(in, rows, 3);
         if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
     } else { // the spline's knots, and buttons that work without pointing
         static const struct row rows[] = {
@@ -866,7 +868,7 @@ void inspector_knot(struct inspector *in)
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
         inspector_idle(in, "knots", frames);
         inspector_idle(in, "values", values);
-        const int pressed = inspector_buttons(in, rows, 3);
+        const int pressed = build_buttons(in, rows, 3);
         if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, HOLDS_VALUE);
         if (pressed == 1) core_visit_neighbour(in->core, 1);
         if (pressed == 2) core_select_all(in->core, false);
@@ -965,6 +967,6 @@ void inspector_pins(struct inspector *in)
         }
         const struct number_home home = {.of = pins_selected(core, &owner), .set = set_pin};
         const enum ui_change change = inspector_number(in, &number, &home, field, ui_row(ui, UI_ROW));
-        if (inspector_changed(change)) pins_tell(core, owner);
+        if (is_finished(change)) pins_tell(core, owner);
     }
 }

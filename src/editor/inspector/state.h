@@ -128,9 +128,8 @@ bool inspector_toggle(struct inspector *in, struct rect r, const struct row *row
 bool inspector_line(struct inspector *in, struct rect r, const struct row *row);
 
 enum { INSPECTOR_ICON = 24 };
-/// Icon buttons from left to right, or buttons of one width; the pressed one, or -1.
+/// Icon buttons from left to right; the pressed one, or -1.
 int inspector_icons(struct inspector *in, struct rect r, const struct row *rows, int count);
-int inspector_buttons(struct inspector *in, const struct row *rows, int count);
 
 /// A list over the panel.
 struct dropdown {
@@ -161,8 +160,6 @@ void inspector_bone_field(struct inspector *in, const struct dropdown *list, str
 /// The open list of a model's bones below `top` (−1: all), by name; the picked node, or −1.
 int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen);
 
-/// Whether a change is finished, not a step of a drag.
-bool inspector_changed(enum ui_change change);
 /// core_step() for a change. A drag is one step, redone from the original at each movement; Esc reverts it. A run of nudges of `what` with
 /// the same selection is one step too. true if you should edit now.
 bool inspector_step(struct inspector *in, enum ui_change change, const char *label, const char *what);
