@@ -14,8 +14,6 @@ static const struct knot *knot(const struct session *s, int spline, int k)
     return &s->document->splines[spline]->knots[k];
 }
 
-static int count(const struct session *s) { return selected(s->editor); }
-
 /// A box from one place of the plot to another, by frames and values.
 static void box(struct session *s, const char *from, const char *to)
 {
@@ -28,23 +26,23 @@ static void box(struct session *s, const char *from, const char *to)
 SESSION_TEST(test_all_of_one_and_of_all_that_are_shown, session_open(s, TWO))
 {
     session_key(s, 'A', MOD_CTRL);
-    assert_int_equal(count(s), 4);
+    assert_int_equal(selected(s->editor), 4);
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
-    assert_int_equal(count(s), 7);
+    assert_int_equal(selected(s->editor), 7);
     session_key(s, 'A', MOD_CTRL); // fewer again
-    assert_int_equal(count(s), 4);
+    assert_int_equal(selected(s->editor), 4);
     selection_set(hidden_of(s->editor), s->document->splines[2]->id, true);
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
-    assert_int_equal(count(s), 6);
+    assert_int_equal(selected(s->editor), 6);
 }
 
 SESSION_TEST(test_a_box_takes_knots_of_all_curves, session_open(s, TWO))
 {
     box(s, "curve(sway,17,1.1)", "curve(sway,26,0.1)");
-    assert_int_equal(count(s), 3);
+    assert_int_equal(selected(s->editor), 3);
     assert_int_equal(active(s->editor), 0);
     box(s, "curve(sway,37,-0.3)", "curve(sway,45,-0.7)"); // the other curve alone: that one is worked on then
-    assert_int_equal(count(s), 1);
+    assert_int_equal(selected(s->editor), 1);
     assert_int_equal(active(s->editor), 1);
 }
 
@@ -53,10 +51,10 @@ SESSION_TEST(test_shift_clicks_add_knots_of_another_curve, session_open(s, TWO))
     session_click(s, "knot(sway,1)");
     s->mods = MOD_SHIFT;
     session_click(s, "knot(up,1)");
-    assert_int_equal(count(s), 2);
+    assert_int_equal(selected(s->editor), 2);
     session_click(s, "knot(up,1)");
     s->mods = 0;
-    assert_int_equal(count(s), 1);
+    assert_int_equal(selected(s->editor), 1);
     assert_int_equal(active(s->editor), 0); // the one that has what is still selected
 }
 
@@ -139,7 +137,7 @@ SESSION_TEST(test_pasted_knots_go_to_their_splines, session_open(s, TWO))
     assert_int_equal(s->document->splines[1]->knot_count, 4);
     assert_int_equal(s->document->splines[2]->knot_count, 2);
     assert_near(knot(s, 1, 1)->frame, 31, 0); // 20 is 10 behind the first one, of another spline
-    assert_int_equal(count(s), 7);
+    assert_int_equal(selected(s->editor), 7);
     assert_one_step(s, original);
     free(text);
 }
@@ -168,7 +166,7 @@ SESSION_TEST(test_copies_go_behind_the_end, session_open(s, TWO))
     assert_int_equal(s->document->last_frame, 130);
     assert_near(knot(s, 0, 7)->frame, 130, 0);
     assert_near(knot(s, 1, 2)->frame, 90, 0);
-    assert_int_equal(count(s), 7);
+    assert_int_equal(selected(s->editor), 7);
     assert_one_step(s, original);
 }
 

@@ -13,8 +13,6 @@ static void open_scene(struct session *s)
     session_key(s, KEY_LEFT, MOD_SHIFT);
 }
 
-static const struct pose *pose_of(const struct session *s) { return posed(s->editor); }
-
 /// How far joint n turns sideways from the one before, radians.
 static double side_bend(const struct pose *pose, int n)
 {
@@ -30,7 +28,7 @@ SESSION_TEST(test_tail_lags_and_settles, open_scene(s))
     double least_near = 0, least_far = 0, first = 0, last = 0;
     int near_at = 0, far_at = 0, tip_stays_behind = 0;
     for (int frame = 0; frame < FRAMES; frame++) {
-        const struct pose *pose = pose_of(s);
+        const struct pose *pose = posed(s->editor);
         double near = side_bend(pose, 3), far = side_bend(pose, 21);
         double tip = (double)(pose->matrix[JOINTS][X] - pose->matrix[0][X]);
         if (frame >= 8 && frame < 30 && near < least_near) least_near = near, near_at = frame;
@@ -48,11 +46,11 @@ SESSION_TEST(test_tail_lags_and_settles, open_scene(s))
 /// It stands on the ground between the hops, and on that of the scene while it hops.
 SESSION_TEST(test_hops_over_the_ground, open_scene(s))
 {
-    assert_near(pose_of(s)->matrix[0][Y], 0.26, 1e-3);
-    assert_near(pose_of(s)->ground, 0, 0);
+    assert_near(posed(s->editor)->matrix[0][Y], 0.26, 1e-3);
+    assert_near(posed(s->editor)->ground, 0, 0);
     for (int i = 0; i < 12; i++) session_key(s, KEY_RIGHT, 0);
-    assert_near(pose_of(s)->matrix[0][Y], 0.45, 0.02); // stretched, too
-    assert_near(pose_of(s)->ground, 0, 0);
+    assert_near(posed(s->editor)->matrix[0][Y], 0.45, 0.02); // stretched, too
+    assert_near(posed(s->editor)->ground, 0, 0);
 }
 
 /// Playing, stepping and jumping show the same pose at the same time, to the last bit; the last frame is the first again.
@@ -66,18 +64,18 @@ SESSION_TEST(test_playing_is_scrubbing, open_scene(s))
     while (count < 4 * FRAMES / 2) {
         session_frame(s);
         at[count] = playback_of(s->editor)->position;
-        played[count++] = *pose_of(s);
+        played[count++] = *posed(s->editor);
     }
     session_key(s, KEY_SPACE, 0);
     for (int i = count - 1; i >= 0; i -= 7) {
         playback_of(s->editor)->position = at[i];
         session_frame(s);
-        assert_memory_equal(pose_of(s)->matrix, played[i].matrix, (JOINTS + 1) * sizeof played[i].matrix[0]);
+        assert_memory_equal(posed(s->editor)->matrix, played[i].matrix, (JOINTS + 1) * sizeof played[i].matrix[0]);
     }
     session_key(s, KEY_LEFT, MOD_SHIFT);
-    struct pose first = *pose_of(s);
+    struct pose first = *posed(s->editor);
     session_key(s, KEY_RIGHT, MOD_SHIFT);
-    assert_memory_equal(pose_of(s)->matrix, first.matrix, (JOINTS + 1) * sizeof first.matrix[0]);
+    assert_memory_equal(posed(s->editor)->matrix, first.matrix, (JOINTS + 1) * sizeof first.matrix[0]);
 }
 
 static const char SETTLES[] =
@@ -92,7 +90,7 @@ static const char SETTLES[] =
 SESSION_TEST(test_a_tail_that_follows_settles_bent, session_open(s, SETTLES))
 {
     session_click(s, "ruler(20)");
-    assert_true(fabs(side_bend(pose_of(s), 3)) < 0.03);
+    assert_true(fabs(side_bend(posed(s->editor), 3)) < 0.03);
     session_click(s, "ruler(96)");
-    assert_near(fabs(side_bend(pose_of(s), 3)), 10 * 3.14159265358979 / 180, 0.01);
+    assert_near(fabs(side_bend(posed(s->editor), 3)), 10 * 3.14159265358979 / 180, 0.01);
 }

@@ -6,8 +6,6 @@ static const char scene[] =
     "{\"frames\": [0, 100], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
     "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 1}]}]}";
 
-static double frame_of(const struct session *session) { return shown_frame(session->editor); }
-
 /// One picture after `dt` seconds.
 static void pass(struct session *session, double dt) { editor_advance(session->editor, dt); }
 
@@ -22,7 +20,7 @@ SESSION_TEST(test_real_time, open_at(s, 10))
     session_key(s, KEY_SPACE, 0); // its frame is 1/60 s
     pass(s, 0.5);
     pass(s, 0.25);
-    assert_near(frame_of(s), 10 + 24 * (0.75 + 1.0 / 60), 1e-9);
+    assert_near(shown_frame(s->editor), 10 + 24 * (0.75 + 1.0 / 60), 1e-9);
 }
 
 SESSION_TEST(test_speed, open_at(s, 10))
@@ -34,7 +32,7 @@ SESSION_TEST(test_speed, open_at(s, 10))
     }
     playback_of(s->editor)->playing = true;
     pass(s, 1);
-    assert_near(frame_of(s), 12.4, 1e-9);
+    assert_near(shown_frame(s->editor), 12.4, 1e-9);
     for (int i = 0; i < 6; i++) {
         session_type(s, i % 2 ? "+" : "=");
         assert_near(playback_of(s->editor)->speed, faster[i], 0);
@@ -42,7 +40,7 @@ SESSION_TEST(test_speed, open_at(s, 10))
     seek(s->editor, 0);
     playback_of(s->editor)->playing = true;
     pass(s, 0.5);
-    assert_near(frame_of(s), 48, 1e-9);
+    assert_near(shown_frame(s->editor), 48, 1e-9);
     assert_true(history_is_saved(s->history)); // a matter of the view
 }
 
@@ -52,7 +50,7 @@ SESSION_TEST(test_dropped_frames, open_at(s, 0))
     session_key(s, KEY_SPACE, 0);
     for (int i = 0; i < 119; i++) pass(s, 1.0 / 60);
     assert_int_equal(playback_of(s->editor)->dropped, 0);
-    assert_near(frame_of(s), 48, 1e-9);
+    assert_near(shown_frame(s->editor), 48, 1e-9);
     pass(s, 0.25); // from 48 to 54: 49 … 53 were not shown
     assert_int_equal(playback_of(s->editor)->dropped, 5);
     pass(s, 0.3125); // to 61.5: nor 55 … 60
@@ -78,17 +76,17 @@ SESSION_TEST(test_part, open_at(s, 20))
     session_type(s, "]");
     seek(s->editor, 80);
     session_key(s, KEY_SPACE, 0); // from outside it begins at the start
-    assert_near(frame_of(s), 20 + 0.4, 1e-9);
+    assert_near(shown_frame(s->editor), 20 + 0.4, 1e-9);
     pass(s, 0.25);
-    assert_near(frame_of(s), 26.4, 1e-9);
+    assert_near(shown_frame(s->editor), 26.4, 1e-9);
     pass(s, 0.25); // 32.4: around
-    assert_near(frame_of(s), 22.4, 1e-9);
+    assert_near(shown_frame(s->editor), 22.4, 1e-9);
     session_key(s, 'L', MOD_CTRL);
     pass(s, 1);
-    assert_near(frame_of(s), 30, 1e-9); // no loop: stops at its end
+    assert_near(shown_frame(s->editor), 30, 1e-9); // no loop: stops at its end
     assert_false(playback_of(s->editor)->playing);
     session_key(s, KEY_SPACE, 0);
-    assert_near(frame_of(s), 20.4, 1e-9);
+    assert_near(shown_frame(s->editor), 20.4, 1e-9);
 }
 
 static void ruler_at(struct session *session, double frame)
@@ -112,7 +110,7 @@ SESSION_TEST(test_part_on_the_ruler, open_at(s, 5))
     ruler_at(s, 40.3);
     assert_range(s, 40, 60);
     session_release(s, BUTTON_LEFT);
-    assert_near(frame_of(s), 5, 0); // the playhead stays
+    assert_near(shown_frame(s->editor), 5, 0); // the playhead stays
     session_press(s, BUTTON_LEFT, 1);
     ruler_at(s, 90);
     assert_range(s, 40, 90);
@@ -157,9 +155,9 @@ SESSION_TEST(test_scrubbing, open_at(s, 0))
     s->mods = MOD_CTRL;
     ruler_at(s, 33.4);
     session_press(s, BUTTON_LEFT, 1);
-    assert_near(frame_of(s), 33.4, 0.01);
+    assert_near(shown_frame(s->editor), 33.4, 0.01);
     ruler_at(s, 35.6);
-    assert_near(frame_of(s), 35.6, 0.01);
+    assert_near(shown_frame(s->editor), 35.6, 0.01);
     session_release(s, BUTTON_LEFT);
 }
 

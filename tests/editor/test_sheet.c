@@ -13,8 +13,6 @@ static const struct knot *knot(const struct session *s, int spline, int k)
     return &s->document->splines[spline]->knots[k];
 }
 
-static int count(const struct session *s) { return selected(s->editor); }
-
 static float frames(const struct session *s, double count)
 {
     return (float)(count * (double)(x_of(s->editor, 1) - x_of(s->editor, 0)));
@@ -60,9 +58,9 @@ SESSION_TEST(test_a_box_takes_the_marks_of_its_rows, open_sheet(s, TWO))
     session_move(s, s->x - frames(s, 3), s->y);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, frames(s, 6), 2, 2);
-    assert_int_equal(count(s), 1);
+    assert_int_equal(selected(s->editor), 1);
     session_drag(s, 0, 14, 2); // into the next row
-    assert_int_equal(count(s), 2);
+    assert_int_equal(selected(s->editor), 2);
     session_release(s, BUTTON_LEFT);
     const char *original = session_saved(s);
     session_pull(s, "mark(sway,1)", frames(s, 5), 0, 3);
