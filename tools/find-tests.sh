@@ -1,6 +1,6 @@
 #!/bin/sh
 # Prints the tests that the words name: FILE or FILE:CASE. A word is a room (spline), a file (test_curves, curves.c, spline/test_spline,
-# tests/test_cli.sh) or a case. Without a word: all of them, but the rooms faults and hosts only with THOROUGH=1.
+# tests/test_cli.sh) or a case. Without a word it prints all tests; those of faults and hosts only with THOROUGH=1.
 cd "$(dirname "$0")/.." || exit 1
 if [ $# -eq 0 ]; then
     for test in tests/*/test_*.c; do [ "${test#tests/faults/}" != "$test" ] || set -- "$@" "$test"; done
