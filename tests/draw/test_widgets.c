@@ -1,19 +1,27 @@
-/// Widgets, driven by events as a person would: what is dragged, typed and chosen, and where the keyboard goes.
+/// Widgets, driven by events as a person would: what is dragged, typed, chosen and picked, and where the keyboard goes.
 #include "near.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
-/// A panel with one of everything.
+enum { ITEMS = 30 };
+
+/// A panel with one of everything; as a `sorter`, three rows to drag, a button, and a drop-down at the bottom.
 struct panel {
     struct ui ui;
-    struct ui_list list;
     struct rect area;
-    double speed, offset, before;
-    bool on, pressed;
-    int choice, rows;                        ///< rows: more buttons, to make the panel too long
-    enum ui_change change;                   ///< of speed, in the last event
-    int sets, drags, drops, cancels, nudges; ///< counted over all numbers
+    bool is_sorter, on;
+    double speed, offset;
+    int changes[8];      ///< of all numbers, by kind
+    int pressed, choice; ///< `choice`: of the segments, or picked from the list
+    struct ui_list list;
+    int rows; ///< more of them, to make the panel too long
+    int items, dropped;
+    const char *stem; ///< of the items' names
+    enum ui_line line;
+    char typed[UI_TEXT_SIZE];
+    bool used;            ///< the last event
+    float from_x, from_y; ///< where the pointer was pressed or dragged to
 };
 
 static const struct ui_number speed_number = {.name = "speed",
@@ -28,27 +36,17 @@ static const struct ui_number speed_number = {.name = "speed",
                                               .decimals = 2};
 static const struct ui_number offset_number = {
     .name = "offset", .label = "offset", .lowest = -5, .highest = 5, .fallback = NAN, .step = 0.01, .decimals = 2};
-static const struct ui_choice choices[] = {{"a", "First"}, {"b", "Second"}, {"c", "Third"}};
 
-static void count(struct panel *p, enum ui_change change)
+static void build_values(struct panel *p)
 {
-    p->drags += change == UI_DRAG;
-    p->drops += change == UI_DROP;
-    p->cancels += change == UI_CANCEL;
-    p->sets += change == UI_SET;
-    p->nudges += change == UI_NUDGE;
-}
-
-static void build(struct panel *p)
-{
+    static const struct ui_choice choices[] = {{"a", "First"}, {"b", "Second"}, {"c", "Third"}};
     struct ui *ui = &p->ui;
     ui_list_begin(ui, &p->list, p->area);
-    p->change = ui_value(ui, ui_row(ui, UI_ROW), &speed_number, &p->speed);
-    count(p, p->change);
-    count(p, ui_value(ui, ui_row(ui, UI_ROW), &offset_number, &p->offset));
+    p->changes[ui_value(ui, ui_row(ui, UI_ROW), &speed_number, &p->speed)]++;
+    p->changes[ui_value(ui, ui_row(ui, UI_ROW), &offset_number, &p->offset)]++;
     ui_segments(ui, ui_row(ui, UI_ROW), "kind", choices, 3, &p->choice);
     ui_toggle(ui, ui_row(ui, UI_ROW), "on", &p->on);
-    if (ui_button(ui, ui_row(ui, UI_ROW), "go", "Go", true)) p->pressed = true;
+    p->pressed += ui_button(ui, ui_row(ui, UI_ROW), "go", "Go", true);
     for (int i = 0; i < p->rows; i++) {
         char name[16];
         snprintf(name, sizeof name, "row.%d", i);
@@ -57,215 +55,383 @@ static void build(struct panel *p)
     ui_list_end(ui);
 }
 
-static struct panel make_panel(void)
+static void build_sorter(struct panel *p)
 {
-    return (struct panel){.area = {1000, 0, 280, 200}, .speed = 1, .offset = 0.5};
+    static struct ui_item items[ITEMS];
+    static char labels[ITEMS][400];
+    struct ui *ui = &p->ui;
+    ui_value(ui, ui_row(ui, UI_ROW), &speed_number, &p->speed);
+    p->pressed += ui_icon_button(ui, (struct rect){1200, 30, 24, 24}, "eye", UI_ICON_EYE, false, "See");
+    for (int i = 0; i < 3; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "row.%d", i);
+        const struct rect r = ui_row(ui, UI_ROW);
+        const enum ui_row_event event = ui_sort_row(ui, r, r, name, name, false);
+        if (event == UI_ROW_DROPPED) p->dropped = i;
+        if (event == UI_ROW_TWICE) ui_line_begin(ui, "line", "old");
+    }
+    const enum ui_line line = ui_line(ui, ui_row(ui, UI_ROW), "line");
+    if (line != UI_LINE_NONE) {
+        p->line = line;
+        snprintf(p->typed, sizeof p->typed, "%s", ui->text.bytes);
+    }
+    ui->y = p->area.y + p->area.h - 40;
+    ui_dropdown(ui, ui_row(ui, UI_ROW), "kind", 7, "Kind", 0);
+    for (int i = 0; i < p->items; i++) {
+        snprintf(labels[i], sizeof labels[i], "%s%d", p->stem, i);
+        items[i] = (struct ui_item){labels[i], labels[i], 0};
+    }
+    const int picked = ui_popup_list(ui, "kind", items, p->items, p->choice);
+    if (picked >= 0) p->choice = picked;
 }
 
-static bool send(struct panel *p, struct event event)
+/// Builds it in the pass that has begun; returns what the pass does.
+static bool build(struct panel *p)
 {
-    ui_begin_event(&p->ui, p->area, &event);
-    build(p);
+    (p->is_sorter ? build_sorter : build_values)(p);
     return ui_end(&p->ui);
 }
 
-static bool key(struct panel *p, int code, unsigned mods)
+static void open_values(struct panel *p)
 {
-    return send(p, (struct event){.kind = EVENT_KEY, .key = code, .action = ACTION_PRESS, .mods = mods});
+    *p = (struct panel){.area = {1000, 0, 280, 200}, .speed = 1, .offset = 0.5};
 }
 
-static void type(struct panel *p, const char *text)
+static void open_sorter(struct panel *p)
 {
-    while (*text) send(p, (struct event){.kind = EVENT_TEXT, .codepoint = utf8_next(&text)});
+    *p = (struct panel){.area = {1000, 0, 280, 400},
+                        .is_sorter = true,
+                        .speed = 1,
+                        .choice = 2,
+                        .items = ITEMS,
+                        .stem = "",
+                        .dropped = -1};
 }
 
-static bool button(struct panel *p, enum event_button which, enum event_action action, int clicks, float x, float y)
+// --- what a person does, in words
+
+static void send(struct panel *p, struct event event)
 {
-    return send(
-        p, (struct event){.kind = EVENT_BUTTON, .button = which, .action = action, .clicks = clicks, .x = x, .y = y});
+    ui_begin_event(&p->ui, p->area, &event);
+    p->used = build(p);
 }
 
-static void move(struct panel *p, float x, float y, unsigned mods)
+static void button(struct panel *p, enum event_button which, enum event_action action, int clicks, float x, float y)
 {
-    send(p, (struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = mods});
+    send(p,
+         (struct event){.kind = EVENT_BUTTON, .button = which, .action = action, .clicks = clicks, .x = x, .y = y});
 }
 
-static void find(struct panel *p, const char *name, const double *value, float *x, float *y)
+/// Whether a widget is to be seen, in found_x and found_y.
+static bool is_seen(struct panel *p, const char *name, const double *value)
 {
     ui_begin_find(&p->ui, p->area, name, value);
-    build(p);
-    assert_true(ui_end(&p->ui));
-    *x = p->ui.found_x;
-    *y = p->ui.found_y;
+    return build(p);
 }
 
-static void click(struct panel *p, const char *name, int clicks)
+/// A key with what is held: "Shift+Tab".
+static void strike(struct panel *p, const char *chord)
 {
-    float x, y;
-    find(p, name, NULL, &x, &y);
-    button(p, BUTTON_LEFT, ACTION_PRESS, clicks, x, y);
-    button(p, BUTTON_LEFT, ACTION_RELEASE, clicks, x, y);
+    const char *plus = strchr(chord, '+');
+    const unsigned mods = !plus ? 0 : *chord == 'S' ? MOD_SHIFT : *chord == 'C' ? MOD_CTRL : MOD_ALT;
+    const int code = key_from_name(plus ? plus + 1 : chord);
+    if (code == KEY_NONE) fail_msg("there is no key %s", chord);
+    send(p, (struct event){.kind = EVENT_KEY, .key = code, .action = ACTION_PRESS, .mods = mods});
 }
 
-/// Press at the handle, drag to where the bar shows `value`, keep holding.
-static void drag_to(struct panel *p, double value)
+/// One step: "type 2 Hz"; "press go" at a widget or "press 10 10", like "twice" and "right"; "click go"; "drag 12", the bar's handle to where
+/// that is, and "by 40 0" or "fine 40 0", with Shift, from there; "release"; "wheel -5 item.3"; a key, or "20*Down".
+static void act(struct panel *p, const char *step)
 {
-    float x, y;
-    find(p, "speed", NULL, &x, &y);
-    button(p, BUTTON_LEFT, ACTION_PRESS, 1, x, y);
-    find(p, "speed", &value, &x, &y);
-    move(p, x, y, 0);
+    char verb[16] = "", name[32] = "";
+    int skip = 0, times = 1;
+    double by = 0, x = 0, y = 0;
+    if (sscanf(step, "%d*%n", &times, &skip) == 1 && skip > 0) step += skip;
+    const char *rest = step + strcspn(step, " ");
+    rest += *rest == ' ';
+    sscanf(step, "%15s %31s", verb, name);
+    const bool is_wheel = strcmp(verb, "wheel") == 0;
+    if (is_wheel && sscanf(rest, "%lf %31s", &by, name) == 2) rest = strchr(rest, ' ');
+    const bool is_place = sscanf(rest, "%lf %lf", &x, &y) == 2;
+    if (strcmp(verb, "type") == 0) {
+        while (*rest) send(p, (struct event){.kind = EVENT_TEXT, .codepoint = utf8_next(&rest)});
+    } else if (strcmp(verb, "release") == 0) {
+        button(p, BUTTON_LEFT, ACTION_RELEASE, 1, p->ui.pointer_x, p->ui.pointer_y);
+    } else if (strcmp(verb, "drag") == 0) {
+        act(p, "press speed");
+        by = atof(rest);
+        assert_true(is_seen(p, "speed", &by));
+        send(p, (struct event){.kind = EVENT_POINTER, .x = p->ui.found_x, .y = p->ui.found_y});
+        p->from_x = p->ui.pointer_x, p->from_y = p->ui.pointer_y;
+    } else if (strcmp(verb, "by") == 0 || strcmp(verb, "fine") == 0) {
+        send(p, (struct event){.kind = EVENT_POINTER,
+                               .x = p->from_x + (float)x,
+                               .y = p->from_y + (float)y,
+                               .mods = *verb == 'f' ? MOD_SHIFT : 0});
+    } else if (strstr("press twice click right wheel", verb)) {
+        if (!is_place) {
+            if (!is_seen(p, name, NULL)) fail_msg("%s: it is not to be seen", step);
+            x = (double)p->ui.found_x, y = (double)p->ui.found_y;
+        }
+        p->from_x = (float)x, p->from_y = (float)y;
+        if (is_wheel) {
+            send(p, (struct event){.kind = EVENT_WHEEL, .dy = (float)by, .x = p->from_x, .y = p->from_y});
+        } else {
+            button(p, *verb == 'r' ? BUTTON_RIGHT : BUTTON_LEFT, ACTION_PRESS, *verb == 't' ? 2 : 1, p->from_x,
+                   p->from_y);
+            if (*verb == 'c') act(p, "release");
+        }
+    } else {
+        while (times-- > 0) strike(p, step);
+    }
 }
 
-static void release(struct panel *p) { button(p, BUTTON_LEFT, ACTION_RELEASE, 1, p->ui.pointer_x, p->ui.pointer_y); }
-
-TEST(test_slider_reaches_both_ends)
+/// Whether a sentence is so: "speed 12", "focus go", "sees item.3", "typed new name".
+static bool holds(struct panel *p, const char *fact)
 {
-    struct panel p = make_panel();
-    drag_to(&p, 12);
-    assert_near(p.speed, 12, 0);
-    move(&p, 5000, -300, 0); // far outside the panel the drag goes on, and the bar ends
-    assert_near(p.speed, 12, 0);
-    move(&p, -5000, 900, 0);
-    assert_near(p.speed, 0, 0);
-    release(&p);
-    drag_to(&p, 12);
-    drag_to(&p, 0);
-    assert_near(p.speed, 0, 0);
-    release(&p);
-    drag_to(&p, 2.5);
-    assert_near(p.speed, 2.5, 0); // a replay's target is met, and what is saved is the short number
-    release(&p);
+    const char *what = strchr(fact, ' ') + 1;
+    const struct {
+        const char *name;
+        double value;
+    } numbers[] = {{"speed", p->speed},
+                   {"offset", p->offset},
+                   {"choice", p->choice},
+                   {"pressed", p->pressed},
+                   {"on", p->on},
+                   {"used", p->used},
+                   {"drags", p->changes[UI_DRAG]},
+                   {"drops", p->changes[UI_DROP]},
+                   {"cancels", p->changes[UI_CANCEL]},
+                   {"sets", p->changes[UI_SET]},
+                   {"nudges", p->changes[UI_NUDGE]},
+                   {"typing", p->ui.typing != 0},
+                   {"held", p->ui.held != 0},
+                   {"dragged", ui_is_dragged(&p->ui, "row.0")},
+                   {"dropped", p->dropped},
+                   {"open", ui_popup_is_open(&p->ui, "kind")},
+                   {"about", p->ui.popup.which},
+                   {"scrolled", p->list.offset}};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (strncmp(fact, numbers[i].name, strcspn(fact, " ")) == 0) return numbers[i].value == atof(what);
+    if (strncmp(fact, "focus", 5) == 0) { // an item of the list has an id of its own
+        if (strcmp(what, "none") == 0) return p->ui.focus == 0;
+        return p->ui.focus == ui_id(&p->ui, what) || (is_seen(p, what, NULL) && p->ui.focus == p->ui.found);
+    }
+    if (strncmp(fact, "sees", 4) == 0) // in the panel, above the drop-down of the sorter
+        return is_seen(p, what, NULL) && p->ui.found_y > 0 && p->ui.found_y < p->area.h - (p->is_sorter ? 40 : 0);
+    if (strncmp(fact, "hides", 5) == 0) return !is_seen(p, what, NULL);
+    if (strncmp(fact, "typed", 5) == 0) return p->line == UI_LINE_DONE && strcmp(p->typed, what) == 0;
+    if (strncmp(fact, "line cancelled", 5) == 0) return p->line == UI_LINE_CANCEL;
+    if (strncmp(fact, "says", 4) == 0) return strcmp(p->ui.complaint, what) == 0;
+    fail_msg("what is \"%s\"?", fact);
+    return false;
 }
 
-TEST(test_drag_is_many_changes_and_one_drop)
+/// Calls on each part of a text between "; ".
+static void each_part(struct panel *p, const char *text, void (*call)(struct panel *p, const char *part))
 {
-    struct panel p = make_panel();
-    drag_to(&p, 3);
-    move(&p, p.ui.pointer_x + 20, 0, 0);
-    release(&p);
-    assert_int_equal(p.drags, 2);
-    assert_int_equal(p.drops, 1);
-    assert_int_equal(p.sets + p.nudges + p.cancels, 0);
-    click(&p, "speed", 1); // a click alone changes nothing
-    assert_int_equal(p.drags, 2);
-    assert_int_equal(p.drops, 1);
-    drag_to(&p, 5);
-    assert_true(key(&p, KEY_ESCAPE, 0));
-    assert_int_equal(p.cancels, 1);
-    release(&p);
-    assert_int_equal(p.drops, 1);
-    assert_int_equal(p.ui.held, 0);
+    char copy[512], *end;
+    snprintf(copy, sizeof copy, "%s", text);
+    for (char *part = copy; part; part = end) {
+        end = strstr(part, "; ");
+        if (end) *end = '\0', end += 2;
+        call(p, part);
+    }
 }
 
-TEST(test_shift_drags_a_tenth)
+static const char *walk_name, *walk_acts;
+
+static void expect(struct panel *p, const char *fact)
 {
-    struct panel p = make_panel();
-    drag_to(&p, 6);
-    float x = p.ui.pointer_x, y = p.ui.pointer_y;
-    move(&p, x, y, MOD_SHIFT);
-    move(&p, x + 40, y, MOD_SHIFT);
-    double fine = p.speed - 6;
-    move(&p, x, y, 0); // the coarse mapping starts where the pointer is
-    move(&p, x + 40, y, 0);
-    double coarse = p.speed - 6;
+    if (!holds(p, fact)) fail_msg("%s: after \"%s\" it is not so: %s", walk_name, walk_acts, fact);
+}
+
+/// A step of a walk and what is so then; a name begins a walk in a new panel.
+struct step {
+    const char *name, *acts, *facts;
+};
+
+static void walk(const struct step *steps, size_t count, void (*opens)(struct panel *p))
+{
+    struct panel p;
+    for (size_t i = 0; i < count; i++) {
+        if (steps[i].name) opens(&p), walk_name = steps[i].name;
+        walk_acts = steps[i].acts;
+        each_part(&p, steps[i].acts, act);
+        each_part(&p, steps[i].facts, expect);
+    }
+}
+
+TEST(values_are_dragged_typed_and_stepped)
+{
+    static const struct step steps[] = {
+        {"a bar reaches both ends", "drag 12", "speed 12"},
+        {NULL, "by 4000 -300", "speed 12"}, // far outside the panel the drag goes on, and the bar ends
+        {NULL, "by -9000 900", "speed 0"},
+        {NULL, "release; drag 12; drag 0", "speed 0"},
+        {NULL, "release; drag 2.5", "speed 2.5"}, // a replay's target is met, and what is saved is the short number
+        {"a drag is many changes and one drop", "drag 3; by 20 0; release", "drags 2; drops 1"},
+        {NULL, "click speed", "drags 2; drops 1; sets 0; nudges 0; cancels 0"}, // a click alone changes nothing
+        {NULL, "drag 5; Escape", "cancels 1; used 1"},
+        {NULL, "release", "drops 1; held 0"},
+        {"right click goes to the default", "drag 9; release; right speed", "speed 1; sets 1"},
+        {NULL, "right speed", "speed 1; sets 1"},
+        {NULL, "right offset", "offset 0.5; sets 1"}, // has none
+        {"a press elsewhere takes what was typed", "twice offset; release; type 2; click go", "offset 2; pressed 1"},
+        {NULL, "twice offset; release; type 3; click speed", "offset 3; typing 0"}, // built before it: uses it first
+        {NULL, "twice offset; release; type 4; press 10 10", "offset 4; used 0"},   // outside it stays to be used
+        {"segments are found by name", "click kind.c", "choice 2; hides kind.d"},
+        {NULL, "click kind.b", "choice 1"},
+    };
+    walk(steps, sizeof steps / sizeof *steps, open_values);
+}
+
+TEST(the_keyboard_goes_round)
+{
+    static const struct step steps[] = {
+        {"Tab goes round", "Tab", "focus speed; used 1"},
+        {NULL, "Tab", "focus offset"},
+        {NULL, "Tab", "focus kind"},
+        {NULL, "Tab", "focus on"},
+        {NULL, "Tab", "focus go"},
+        {NULL, "Tab", "focus speed; used 1"},
+        {NULL, "Shift+Tab", "focus go"},
+        {NULL, "Enter", "pressed 1; used 1"}, // what the focus takes does nothing else: Space would play, too
+        {NULL, "Shift+Tab; Space", "on 1; used 1"},
+        {NULL, "Shift+Tab; Right", "choice 1"},
+        {NULL, "Escape", "focus none; used 1"},
+        {NULL, "Escape", "used 0"},
+        {NULL, "Tab; press 10 10", "focus none"},
+        {"a focused bar takes arrows and digits only", "Tab; Right; Up", "speed 1.1"},
+        {NULL, "Shift+Left", "speed 0.6; nudges 3"},
+        {NULL, "30*Down", "speed 0"},
+        {NULL, "V", "used 0"}, // letters, Space and chords stay the editor's
+        {NULL, "Space", "used 0"},
+        {NULL, "Ctrl+Z", "used 0"},
+        {NULL, "Alt+Left", "used 0"},
+        {NULL, "4", "used 1"},
+        {NULL, "type ,5; Enter", "speed 0.5"}, // the comma of a keypad
+        {NULL, "type 1,000.5; Enter", "speed 0.5; says speed: expected a number, got “1,000.5”"},
+        {NULL, "Escape; type 4.2; Tab", "speed 4.2; focus offset"},
+        {"typing takes all keys but chords and F keys", "twice speed; release; V", "used 1"},
+        {NULL, "Space", "used 1"},
+        {NULL, "Delete", "used 1"},
+        {NULL, "Alt+Left", "used 1"},
+        {NULL, "Ctrl+Z", "used 0"},
+        {NULL, "F1", "used 0"},
+        {NULL, "F12", "used 0"},
+    };
+    walk(steps, sizeof steps / sizeof *steps, open_values);
+}
+
+static void open_long(struct panel *p) // 25 rows of 24 in 200 pixels
+{
+    open_values(p);
+    p->rows = 20;
+}
+
+TEST(scrolling_is_limited_and_follows_the_focus)
+{
+    static const struct step steps[] = {
+        {"scrolled", "wheel -100 speed", "scrolled 400; used 1"},
+        {NULL, "wheel 100 row.19", "scrolled 0; hides row.19"},
+        {NULL, "Shift+Tab", "sees row.19"},
+        {NULL, "press 1100 210", "used 0"}, // clipped
+    };
+    walk(steps, sizeof steps / sizeof *steps, open_long);
+}
+
+/// A drop-down hangs near the bottom, so that its list opens upwards and lies over other widgets.
+TEST(lists_are_picked_from_and_rows_dragged)
+{
+    static const struct step steps[] = {
+        {"the pointer picks", "press kind.7", "open 1; about 7"},
+        {NULL, "release; press item.1", "choice 1; open 0; focus none"}, // the keyboard stays with the editor
+        {"it lies over the panel", "press kind.7", "sees item.0; sees item.3"},
+        {NULL, "press eye", "pressed 0; open 0"}, // outside: closes, and is for nothing else
+        {NULL, "press eye", "pressed 1"},
+        {"Escape and chords close", "press kind.7; Escape", "open 0; choice 2; used 1"},
+        {NULL, "press kind.7; V", "open 1; used 1"}, // a letter does nothing behind the list's back
+        {NULL, "Ctrl+Z", "open 0; used 0"},
+        {"the keyboard picks", "Shift+Tab", "focus kind.7"},
+        {NULL, "Enter", "open 1; focus item.2"}, // at what is chosen
+        {NULL, "20*Down", "sees item.22"},
+        {NULL, "Enter", "choice 22; open 0; focus kind.7"}, // and the field has the keyboard again
+        {NULL, "Space; Shift+Tab", "focus item.21"},
+        {"the wheel scrolls the list alone", "press kind.7; wheel -5 item.3", "sees item.15; used 1"},
+        {NULL, "wheel -5 1010 5", "sees item.15; used 1; speed 1"}, // not over the list
+        {"a click is no drag", "click row.0", "dropped -1"},
+        {NULL, "press row.0; by 0 50", "dragged 1"},
+        {NULL, "release", "dropped 0"},
+        {"Escape ends a drag", "press row.1; by 0 66; Escape; release", "dropped -1"},
+        {"a line is edited in place", "twice row.0; type new name; Enter", "typed new name"},
+        {NULL, "twice row.0; type x; Escape", "line cancelled"},
+        {NULL, "twice row.0; type elsewhere; press eye", "typed elsewhere; pressed 1"}, // a press on what is there
+    };
+    walk(steps, sizeof steps / sizeof *steps, open_sorter);
+
+    struct panel p; // names that are long, and alike at the beginning, are told apart
+    char stem[301] = "";
+    open_sorter(&p);
+    for (int i = 0; i < 100; i++) strcat(stem, "尻");
+    p.stem = stem;
+    p.items = 5;
+    each_part(&p, walk_acts = "press kind.7; Down; Enter", act);
+    expect(&p, "choice 3");
+    act(&p, "press kind.7"); // what the list is about may go while it is open (undo): it does not swallow all input
+    ui_begin_event(&p.ui, p.area, &(struct event){.kind = EVENT_POINTER});
+    ui_end(&p.ui);
+    expect(&p, "open 0");
+}
+
+TEST(shift_drags_a_tenth)
+{
+    struct panel p;
+    open_values(&p);
+    each_part(&p, "drag 6; fine 0 0; fine 40 0", act);
+    const double fine = p.speed - 6;
+    each_part(&p, "by 0 0; by 40 0", act); // the coarse mapping starts where the pointer is
     assert_true(fine > 0);
-    assert_near(fine, coarse / 10, 0.011);
+    assert_near(fine, (p.speed - 6) / 10, 0.011);
 }
 
-TEST(test_typing_takes_numbers_with_unit)
+/// Typed over 7 Hz: a number with or without its unit and a comma for a point, or the reason why it is not taken.
+TEST(typing_takes_numbers_with_unit)
 {
     static const struct {
         const char *text;
-        double value;
-    } good[] = {{"2.5", 2.5}, {" 3 ", 3}, {"4 Hz", 4}, {"5Hz", 5}, {"1e1", 10}, {"20", 20}, {".5", 0.5}, {"0", 0}};
-    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
-        struct panel p = make_panel();
+        double value; ///< NAN: refused
+    } rows[] = {
+        {"2.5", 2.5}, {" 3 ", 3},  {"4 Hz", 4},  {"5Hz", 5},     {"1e1", 10},      {"20", 20},   {".5", 0.5},
+        {"0", 0},     {",5", 0.5}, {"abc", NAN}, {"1,25", 1.25}, {"1.2.3", NAN},   {"", NAN},    {"0x10", NAN},
+        {"nan", NAN}, {"-1", NAN}, {"inf", NAN}, {"1e999", NAN}, {"2 Hz Hz", NAN}, {"3 m", NAN}, {"--2", NAN},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct panel p;
+        const bool is_good = !isnan(rows[i].value);
+        char typing[32];
+        open_values(&p);
         p.speed = 7;
-        click(&p, "speed", 2);
-        assert_true(p.ui.typing != 0);
-        type(&p, good[i].text);
-        key(&p, KEY_ENTER, 0);
-        assert_near(p.speed, good[i].value, 0);
-        assert_int_equal(p.sets, 1);
-        assert_int_equal(p.ui.typing, 0);
-        assert_int_equal(p.ui.focus, 0); // a double-click leaves no focus behind
+        snprintf(typing, sizeof typing, "type %s", rows[i].text);
+        each_part(&p, "twice speed; release; Backspace", act);
+        act(&p, walk_name = walk_acts = typing);
+        act(&p, "Enter");
+        expect(&p, is_good ? "sets 1; typing 0" : "sets 0; typing 1");
+        if (!is_good && !strstr(p.ui.complaint, "speed: expected")) fail_msg("%s: no reason is given", typing);
+        if (!is_good) act(&p, "Escape"); // or it is to be put right
+        if (p.speed != (is_good ? rows[i].value : 7)) fail_msg("%s gives %g", typing, p.speed);
+        expect(&p, "typing 0");
+        expect(&p, "focus none"); // a double-click leaves no focus behind
     }
-}
-
-TEST(test_nonsense_says_why_and_keeps_the_value)
-{
-    static const char *const bad[] = {"abc",   "",    "1.2.3", "0x10", "nan",    "inf",
-                                      "1e999", "3 m", "-1",    "--2",  "2 Hz Hz"};
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        struct panel p = make_panel();
-        click(&p, "speed", 2);
-        key(&p, KEY_BACKSPACE, 0);
-        type(&p, bad[i]);
-        key(&p, KEY_ENTER, 0);
-        assert_near(p.speed, 1, 0);
-        assert_int_equal(p.sets, 0);
-        assert_non_null(strstr(p.ui.complaint, "speed: expected"));
-        assert_true(p.ui.typing != 0); // to be put right
-        key(&p, KEY_ESCAPE, 0);
-        assert_int_equal(p.ui.typing, 0);
-        assert_near(p.speed, 1, 0);
-    }
-}
-
-TEST(test_press_elsewhere_takes_what_was_typed)
-{
-    struct panel p = make_panel();
-    click(&p, "offset", 2);
-    type(&p, "2");
-    click(&p, "go", 1); // built after the field
-    assert_near(p.offset, 2, 0);
-    assert_true(p.pressed);
-    click(&p, "offset", 2);
-    type(&p, "3");
-    click(&p, "speed", 1); // built before it, so it uses the press first
-    assert_near(p.offset, 3, 0);
-    assert_int_equal(p.ui.typing, 0);
-    click(&p, "offset", 2);
-    type(&p, "4");
-    assert_false(button(&p, BUTTON_LEFT, ACTION_PRESS, 1, 10, 10)); // and outside of the panel it stays to be used
-    assert_near(p.offset, 4, 0);
-}
-
-TEST(test_tab_moves_the_focus_round)
-{
-    static const char *const order[] = {"speed", "offset", "kind", "on", "go", "speed"};
-    struct panel p = make_panel();
-    for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
-        assert_true(key(&p, KEY_TAB, 0));
-        assert_int_equal(p.ui.focus, ui_id(&p.ui, order[i]));
-    }
-    key(&p, KEY_TAB, MOD_SHIFT);
-    assert_int_equal(p.ui.focus, ui_id(&p.ui, "go"));
-    assert_true(key(&p, KEY_ENTER, 0)); // what the focus takes does nothing else: Space would play, too
-    assert_true(p.pressed);
-    key(&p, KEY_TAB, MOD_SHIFT);
-    assert_true(key(&p, KEY_SPACE, 0));
-    assert_true(p.on);
-    key(&p, KEY_TAB, MOD_SHIFT);
-    key(&p, KEY_RIGHT, 0);
-    assert_int_equal(p.choice, 1);
-    assert_true(key(&p, KEY_ESCAPE, 0));
-    assert_int_equal(p.ui.focus, 0);
-    assert_false(key(&p, KEY_ESCAPE, 0));
-    key(&p, KEY_TAB, 0);
-    button(&p, BUTTON_LEFT, ACTION_PRESS, 1, 10, 10);
-    assert_int_equal(p.ui.focus, 0);
 }
 
 /// Buttons of one name: beside each other they are noticed, each in its own scope they are two.
 TEST(test_a_name_is_free_again_in_another_scope)
 {
-    static const struct rect area = {0, 0, 100, 100};
     struct event event = {.kind = EVENT_KEY, .key = KEY_TAB, .action = ACTION_PRESS};
     for (int scoped = 0; scoped < 2; scoped++) {
         struct ui ui = {.focus = 0};
-        ui_begin_event(&ui, area, &event);
+        ui_begin_event(&ui, (struct rect){0, 0, 100, 100}, &event);
         for (uint32_t row = 0; row < 3; row++) {
             if (scoped) ui_push(&ui, row);
             ui_button(&ui, ui_row(&ui, UI_ROW), "go", "Go", false);
@@ -276,194 +442,101 @@ TEST(test_a_name_is_free_again_in_another_scope)
     }
 }
 
-TEST(test_focused_slider_takes_arrows_and_digits_only)
-{
-    struct panel p = make_panel();
-    key(&p, KEY_TAB, 0);
-    key(&p, KEY_RIGHT, 0);
-    key(&p, KEY_UP, 0);
-    assert_near(p.speed, 1.1, 0);
-    key(&p, KEY_LEFT, MOD_SHIFT);
-    assert_near(p.speed, 0.6, 0);
-    assert_int_equal(p.nudges, 3);
-    for (int i = 0; i < 30; i++) key(&p, KEY_DOWN, 0);
-    assert_near(p.speed, 0, 0);
-    assert_false(key(&p, 'V', 0)); // letters, Space and chords stay the editor's
-    assert_false(key(&p, KEY_SPACE, 0));
-    assert_false(key(&p, 'Z', MOD_CTRL));
-    assert_false(key(&p, KEY_LEFT, MOD_ALT));
-    assert_true(key(&p, '4', 0));
-    type(&p, "4.2");
-    key(&p, KEY_TAB, 0);
-    assert_near(p.speed, 4.2, 0);
-    assert_int_equal(p.ui.focus, ui_id(&p.ui, "offset"));
-}
-
-TEST(test_the_comma_of_a_keypad_is_a_point)
-{
-    struct panel p = make_panel();
-    key(&p, KEY_TAB, 0);
-    type(&p, ",5");
-    key(&p, KEY_ENTER, 0);
-    assert_near(p.speed, 0.5, 0);
-    type(&p, "1,25");
-    key(&p, KEY_ENTER, 0);
-    assert_near(p.speed, 1.25, 0);
-    type(&p, "1,000.5");
-    key(&p, KEY_ENTER, 0);
-    assert_near(p.speed, 1.25, 0);
-    assert_string_equal(p.ui.complaint, "speed: expected a number, got “1,000.5”");
-}
-
-TEST(test_typing_takes_all_keys_but_chords_and_f_keys)
-{
-    struct panel p = make_panel();
-    click(&p, "speed", 2);
-    assert_true(key(&p, 'V', 0));
-    assert_true(key(&p, KEY_SPACE, 0));
-    assert_true(key(&p, KEY_DELETE, 0));
-    assert_true(key(&p, KEY_LEFT, MOD_ALT));
-    assert_false(key(&p, 'Z', MOD_CTRL));
-    assert_false(key(&p, KEY_F1, 0));
-    assert_false(key(&p, KEY_F12, 0));
-}
-
-TEST(test_right_click_goes_to_the_default)
-{
-    struct panel p = make_panel();
-    p.speed = 9;
-    float x, y;
-    find(&p, "speed", NULL, &x, &y);
-    button(&p, BUTTON_RIGHT, ACTION_PRESS, 1, x, y);
-    assert_near(p.speed, 1, 0);
-    assert_int_equal(p.sets, 1);
-    button(&p, BUTTON_RIGHT, ACTION_PRESS, 1, x, y);
-    assert_int_equal(p.sets, 1);
-    find(&p, "offset", NULL, &x, &y); // has none
-    button(&p, BUTTON_RIGHT, ACTION_PRESS, 1, x, y);
-    assert_near(p.offset, 0.5, 0);
-}
-
-TEST(test_segments_are_found_by_name)
-{
-    struct panel p = make_panel();
-    click(&p, "kind.c", 1);
-    assert_int_equal(p.choice, 2);
-    click(&p, "kind.b", 1);
-    assert_int_equal(p.choice, 1);
-    ui_begin_find(&p.ui, p.area, "kind.d", NULL);
-    build(&p);
-    assert_false(ui_end(&p.ui));
-}
-
-TEST(test_scrolling_is_limited_and_follows_the_focus)
-{
-    struct panel p = make_panel();
-    p.rows = 20; // 25 rows of 24 in 200 pixels
-    move(&p, 1100, 100, 0);
-    struct event wheel = {.kind = EVENT_WHEEL, .dy = -100, .x = 1100, .y = 100};
-    assert_true(send(&p, wheel));
-    assert_near(p.list.offset, 25 * UI_ROW - 200, 0);
-    wheel.dy = 100;
-    send(&p, wheel);
-    assert_near(p.list.offset, 0, 0);
-    ui_begin_find(&p.ui, p.area, "row.19", NULL);
-    build(&p);
-    assert_false(ui_end(&p.ui)); // scrolled out of sight
-    key(&p, KEY_TAB, MOD_SHIFT);
-    float x, y;
-    find(&p, "row.19", NULL, &x, &y);
-    assert_true(y < 200);
-    assert_false(button(&p, BUTTON_LEFT, ACTION_PRESS, 1, 1100, 210)); // what is clipped cannot be pressed
-}
-
-static void press_text(struct ui_text *text, int code)
-{
-    ui_text_event(text, &(struct event){.kind = EVENT_KEY, .key = code, .action = ACTION_PRESS}, NULL);
-}
-
+/// A line of text after each event: a key or, above that, a character.
 TEST(test_text_is_edited_by_characters)
 {
+    enum { TYPED = 0x1000000 };
+    static const struct {
+        uint32_t what;
+        const char *then;
+    } rows[] = {{KEY_BACKSPACE, "aé"},
+                {KEY_LEFT, "aé"},
+                {TYPED | 0x1F600, "a\xF0\x9F\x98\x80é"},
+                {KEY_HOME, "a\xF0\x9F\x98\x80é"},
+                {KEY_DELETE, "\xF0\x9F\x98\x80é"},
+                {KEY_DELETE, "é"},
+                {KEY_END, "é"},
+                {KEY_DELETE, "é"}};
     struct ui_text text;
+    struct event event = {.kind = EVENT_TEXT, .codepoint = 'x'};
     ui_text_set(&text, "aé…");
-    press_text(&text, KEY_BACKSPACE);
-    assert_string_equal(text.bytes, "aé");
-    press_text(&text, KEY_LEFT);
-    ui_text_event(&text, &(struct event){.kind = EVENT_TEXT, .codepoint = 0x1F600}, NULL);
-    assert_string_equal(text.bytes, "a\xF0\x9F\x98\x80é");
-    press_text(&text, KEY_HOME);
-    press_text(&text, KEY_DELETE);
-    press_text(&text, KEY_DELETE);
-    assert_string_equal(text.bytes, "é");
-    press_text(&text, KEY_END);
-    press_text(&text, KEY_DELETE);
-    assert_string_equal(text.bytes, "é");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const struct event key = {.kind = EVENT_KEY, .key = (int)rows[i].what, .action = ACTION_PRESS};
+        const struct event typed = {.kind = EVENT_TEXT, .codepoint = rows[i].what & ~(uint32_t)TYPED};
+        ui_text_event(&text, rows[i].what & TYPED ? &typed : &key, NULL);
+        if (strcmp(text.bytes, rows[i].then) != 0) fail_msg("event %zu gives \"%s\"", i, text.bytes);
+    }
     text.all = true;
-    ui_text_event(&text, &(struct event){.kind = EVENT_TEXT, .codepoint = 'x'}, NULL);
+    ui_text_event(&text, &event, NULL);
     assert_string_equal(text.bytes, "x");
     bool changed = true;
-    assert_true(ui_text_event(&text, &(struct event){.kind = EVENT_TEXT, .codepoint = '\n'}, &changed));
+    event.codepoint = '\n';
+    assert_true(ui_text_event(&text, &event, &changed));
     assert_false(changed);
-    for (int i = 0; i < 2 * UI_TEXT_SIZE; i++) {
-        ui_text_event(&text, &(struct event){.kind = EVENT_TEXT, .codepoint = 0xE9}, NULL);
-    }
+    event.codepoint = 0xE9;
+    for (int i = 0; i < 2 * UI_TEXT_SIZE; i++) ui_text_event(&text, &event, NULL);
     assert_true(text.length < UI_TEXT_SIZE);
     assert_int_equal(strlen(text.bytes), text.length);
 }
 
-/// Two frames without an event between them are the same commands: nothing is redrawn.
-TEST(test_drawing_is_steady_and_fits)
+// --- what is drawn
+
+static void open_list(struct drawlist *list) { drawlist_create(list, 1000, 10000, 10000); }
+
+#define DRAWING_TEST(name) TEST_OF(struct drawlist, list, open_list(list), drawlist_destroy(list), name)
+
+static void draw(struct panel *p, struct drawlist *list)
 {
-    struct panel p = make_panel();
-    struct drawlist list;
+    drawlist_clear(list, (struct rect){0, 0, 1280, 720});
+    ui_begin_draw(&p->ui, p->area, list);
+    build(p);
+}
+
+/// Two frames without an event between them are the same commands: nothing is redrawn.
+DRAWING_TEST(test_drawing_is_steady_and_fits)
+{
+    struct panel panel;
     uint64_t hash[2] = {0, 0};
-    drawlist_create(&list, 1000, 10000, 10000);
+    open_values(&panel);
     for (int frame = 0; frame < 2; frame++) {
-        drawlist_clear(&list, (struct rect){0, 0, 1280, 720});
-        ui_begin_draw(&p.ui, p.area, &list);
-        build(&p);
-        ui_end(&p.ui);
-        assert_false(list.overflow);
-        assert_true(list.count > 10);
-        for (int i = 0; i < list.count; i++) {
-            hash[frame] = hash[frame] * 31 + list.commands[i].hash;
-            struct rect inside = rect_intersect(list.commands[i].bounds, p.area);
-            assert_near(inside.w, list.commands[i].bounds.w, 0);
+        draw(&panel, list);
+        assert_false(list->overflow);
+        assert_true(list->count > 10);
+        for (int i = 0; i < list->count; i++) {
+            hash[frame] = hash[frame] * 31 + list->commands[i].hash;
+            struct rect inside = rect_intersect(list->commands[i].bounds, panel.area);
+            assert_near(inside.w, list->commands[i].bounds.w, 0);
         }
     }
     assert_true(hash[0] == hash[1]);
-    drawlist_destroy(&list);
 }
 
-/// Whether a small shape lies in the middle of an icon.
-static bool has_middle(enum ui_icon icon)
+/// A small shape lies in the middle of an icon, or none.
+DRAWING_TEST(test_an_open_eye_has_a_pupil)
 {
-    struct ui ui = {0};
-    struct drawlist list;
+    static const struct {
+        enum ui_icon icon;
+        bool has_middle;
+    } rows[] = {{UI_ICON_EYE, true}, {UI_ICON_EYE_CLOSED, false}, {UI_ICON_PICK, true}};
     const struct rect area = {0, 0, 100, 100}, r = {40, 40, 24, 24};
-    bool found = false;
-    drawlist_create(&list, 100, 1000, 1000);
-    drawlist_clear(&list, area);
-    ui_begin_draw(&ui, area, &list);
-    ui_icon_button(&ui, r, "icon", icon, false, "Icon");
-    ui_end(&ui);
-    for (int i = 0; i < list.count; i++) {
-        const struct rect *b = &list.commands[i].bounds;
-        found |= fabsf(b->x + b->w / 2 - 52) < 1.5f && fabsf(b->y + b->h / 2 - 52) < 1.5f && b->w < 10 && b->h < 10;
+    for (int row = 0; row < 3; row++) {
+        struct ui ui = {0};
+        bool found = false;
+        drawlist_clear(list, area);
+        ui_begin_draw(&ui, area, list);
+        ui_icon_button(&ui, r, "icon", rows[row].icon, false, "Icon");
+        ui_end(&ui);
+        for (int i = 0; i < list->count; i++) {
+            const struct rect *b = &list->commands[i].bounds;
+            found |=
+                fabsf(b->x + b->w / 2 - 52) < 1.5f && fabsf(b->y + b->h / 2 - 52) < 1.5f && b->w < 10 && b->h < 10;
+        }
+        if (found != rows[row].has_middle) fail_msg("icon %d", (int)rows[row].icon);
     }
-    drawlist_destroy(&list);
-    return found;
-}
-
-TEST(test_an_open_eye_has_a_pupil)
-{
-    assert_true(has_middle(UI_ICON_EYE));
-    assert_false(has_middle(UI_ICON_EYE_CLOSED));
-    assert_true(has_middle(UI_ICON_PICK));
 }
 
 /// Whether something goes around, or fills, all of `r` with a contrast of 3:1 against the panel.
-static bool is_seen(const struct drawlist *list, struct rect r)
+static bool stands_out(const struct drawlist *list, struct rect r)
 {
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
@@ -475,25 +548,21 @@ static bool is_seen(const struct drawlist *list, struct rect r)
 }
 
 /// At rest, off and unfocused, each control has an outline or a fill of its own in both themes.
-TEST(test_controls_are_seen_where_they_are)
+DRAWING_TEST(test_controls_are_seen_where_they_are)
 {
     static const char *const names[] = {"speed", "offset", "kind", "on", "go"};
-    struct drawlist list;
-    drawlist_create(&list, 1000, 10000, 10000);
     for (int kind = 0; kind < THEME_COUNT; kind++) {
-        struct panel p = make_panel();
+        struct panel p;
+        open_values(&p);
         theme_use((enum theme_kind)kind);
-        drawlist_clear(&list, (struct rect){0, 0, 1280, 720});
-        ui_begin_draw(&p.ui, p.area, &list);
-        build(&p);
-        ui_end(&p.ui);
+        draw(&p, list);
         for (int i = 0; i < 5; i++) {
             assert_true(p.ui.stop[i].id == ui_id(&p.ui, names[i]));
-            if (!is_seen(&list, p.ui.stop[i].rect)) fail_msg("%s theme: \"%s\" is not seen", theme()->name, names[i]);
+            if (!stands_out(list, p.ui.stop[i].rect))
+                fail_msg("%s theme: \"%s\" is not seen", theme()->name, names[i]);
         }
     }
     theme_use(THEME_DARK);
-    drawlist_destroy(&list);
 }
 
 static int start(void **state)
