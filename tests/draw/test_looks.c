@@ -1,14 +1,20 @@
-/// How a mesh of somebody else's looks, all the way: an OBJ with a texture, two materials and quads becomes a soft character, is read
-/// back, drawn and exported.
+/// How somebody else's meshes look: an OBJ with a texture, two materials and quads becomes a soft character, is read back, drawn and exported;
+/// and the textures of glTF files, which go on outside of their picture as the file says, and have edges or none.
 #include "base/png.h"
 #include "export_scene.h"
+#include "gltf_builder.h"
 #include "model/surface.h"
+#include "model/vector.h"
 #include "offscreen.h"
 #include "puppet.h"
 
-enum { WIDTH = 200, HEIGHT = 160, TEXTURED = 0, GREEN = 1 };
+enum { SIDE = 240, TEXTURED = 0, GREEN = 1 };
 
-/// A cube of 1 m of quads, which has the whole picture on each side but the one on top, which is green. Left half red, right half blue.
+static struct shot one = {.width = SIDE, .height = SIDE}, other = {.width = SIDE, .height = SIDE},
+                   third = {.width = SIDE, .height = SIDE};
+
+// --- a cube of 1 m of quads: the whole picture, red and blue, on each side but the one on top, which is green
+
 static const char cube_text[] =
     "mtllib cube.mtl\nv -0.5 0 0.5\nv 0.5 0 0.5\nv 0.5 1 0.5\nv -0.5 1 0.5\nv -0.5 0 -0.5\nv 0.5 0 -0.5\n"
     "v 0.5 1 -0.5\nv -0.5 1 -0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl sides\nf 1/1 2/2 3/3 4/4\n"
@@ -20,16 +26,13 @@ static const char scene_text[] =
     "\"coordinates\": [{\"name\": \"up\", \"spline\": \"s\"}]}]}";
 
 /// The mesh as a file and as analyze makes a character of it.
-static int make_cube(void **state)
+static int open_all(void **state)
 {
     unsigned char pixels[16][16][4];
     struct surface surface;
     struct character character;
     if (folder_make(state) != 0) return -1;
-    for (int i = 0; i < 16 * 16; i++) {
-        const unsigned char red[4] = {255, 0, 0, 255}, blue[4] = {0, 0, 255, 255};
-        memcpy(pixels[i / 16][i % 16], i % 16 < 8 ? red : blue, 4);
-    }
+    for (int i = 0; i < 16 * 16; i++) memcpy(pixels[i / 16][i % 16], i % 16 < 8 ? "\xFF\0\0\xFF" : "\0\0\xFF\xFF", 4);
     assert_done(png_write(folder_path("two.png"), 16, 16, pixels[0][0], &error));
     folder_file("cube.mtl", material_text);
     folder_file("cube.obj", cube_text);
@@ -39,9 +42,14 @@ static int make_cube(void **state)
     character.coordinates[0].name = strdup("up");
     for (int i = 0; i < character.vertex_count; i++)
         character.coordinates[0].re[i][1] = 0.2f * character.position[i][1];
-    assert_done(character_write(folder_path("cube.glb"), &character, true, &error));
-    character_free(&character);
-    return 0;
+    puppet_write(&character, folder_path("cube.glb"));
+    return offscreen_open(SIDE, SIDE);
+}
+
+static int close_all(void **state)
+{
+    offscreen_close(state);
+    return folder_remove(state);
 }
 
 static struct character read_character(const char *name)
@@ -51,42 +59,57 @@ static struct character read_character(const char *name)
     return character;
 }
 
-static void assert_looks(const struct character *c)
+static void assert_same_file(const char *name, const void *bytes, size_t size)
 {
-    size_t size;
-    char *png = bytes_of(folder_path("two.png"), &size);
-    assert_int_equal(c->looks.material_count, 2);
-    assert_string_equal(c->looks.materials[TEXTURED].name, "sides");
-    assert_int_equal(c->looks.materials[TEXTURED].image_size, size);
-    assert_memory_equal(c->looks.materials[TEXTURED].image, png, size);
-    assert_near((double)c->looks.materials[GREEN].color[1], 0.5, 0);
-    assert_int_equal(c->index_count, 36);
-    assert_non_null(c->looks.joined);
-    for (int t = 0; t < 12; t++) {
-        assert_int_equal(c->looks.joined[t], t % 2);
-        assert_int_equal(c->looks.material[t], t < 10 ? TEXTURED : GREEN);
-    }
-    for (int i = 0; i < 6; i++) { // the first side: (0, 1) is its lower left
-        const float *uv = c->looks.uv[c->indices[i]], *p = c->position[c->indices[i]];
-        assert_near((double)uv[0], (double)p[0] + 0.5, 1e-6);
-        assert_near((double)uv[1], 1 - (double)p[1], 1e-6);
-    }
-    free(png);
+    size_t own_size;
+    char *own = bytes_of(folder_path(name), &own_size);
+    assert_int_equal(own_size, size);
+    assert_memory_equal(own, bytes, size);
+    free(own);
 }
 
-TEST_OF(struct character, c, *c = read_character("cube.glb"), character_free(c), they_are_read_back)
+/// As it was made, as it is written again, and as it is exported in either container.
+TEST(characters_are_read_back)
 {
-    assert_looks(c);
-    assert_done(character_write(folder_path("again.glb"), c, true, &error));
-    character_free(c);
-    *c = read_character("again.glb");
-    assert_looks(c);
-}
-
-/// A model file can be a mesh again: simulate and analyze take it, with its quads.
-TEST(a_mesh_of_quads_comes_out_of_gltf)
-{
-    struct surface surface;
+    static const char *const names[] = {"cube.glb", "again.glb", "out.glb", "out.gltf"};
+    struct opened scene = open_scene(folder_path("scene.json"));
+    for (int n = 0; n < 4; n++) {
+        if (n > 1) export_opened(&scene, names[n], (struct export_options){0});
+        struct character c = read_character(names[n]);
+        assert_int_equal(c.looks.material_count, 2);
+        assert_string_equal(c.looks.materials[TEXTURED].name, "sides");
+        assert_same_file("two.png", c.looks.materials[TEXTURED].image, c.looks.materials[TEXTURED].image_size);
+        assert_near(c.looks.materials[GREEN].color[1], 0.5, 0);
+        assert_int_equal(c.index_count, 36);
+        assert_non_null(c.looks.joined);
+        for (int t = 0; t < 12; t++) {
+            assert_int_equal(c.looks.joined[t], t % 2);
+            assert_int_equal(c.looks.material[t], t < 10 ? TEXTURED : GREEN);
+        }
+        for (int i = 0; i < 6; i++) { // the first side: (0, 1) is its lower left
+            const float *uv = c.looks.uv[c.indices[i]], *p = c.position[c.indices[i]];
+            assert_near(uv[0], p[0] + 0.5f, 1e-6);
+            assert_near(uv[1], 1 - p[1], 1e-6);
+        }
+        if (n == 0) assert_done(character_write(folder_path("again.glb"), &c, true, &error));
+        character_free(&c);
+        if (n < 2) continue;
+        struct gltf gltf;
+        assert_done(gltf_read(folder_path(names[n]), &gltf, &error));
+        const struct gltf_part *parts = gltf.meshes[0].parts;
+        assert_null(gltf.not_shown);
+        assert_int_equal(gltf.meshes[0].part_count, 2);
+        assert_int_equal(gltf.materials[TEXTURED].image, 0);
+        assert_int_equal(gltf.images[0].width, 16);
+        assert_near(gltf.materials[GREEN].color[1], 0.5, 0);
+        assert_int_equal(parts[1].material, GREEN);
+        assert_non_null(parts[0].uv);
+        assert_ptr_equal(parts[0].position, parts[1].position); // vertices that both have are there once
+        assert_ptr_equal(parts[0].uv, parts[1].uv);
+        gltf_free(&gltf);
+    }
+    close_scene(&scene);
+    struct surface surface; // and it can be a mesh again: simulate and analyze take it, with its quads
     assert_done(surface_read(folder_path("cube.glb"), &surface, &error));
     assert_int_equal(surface.index_count, 36);
     assert_non_null(surface.looks.joined);
@@ -94,40 +117,8 @@ TEST(a_mesh_of_quads_comes_out_of_gltf)
     surface_free(&surface);
 }
 
-static const char *export_cube(const char *name)
-{
-    return export_file(folder_path("scene.json"), name, (struct export_options){0});
-}
-
-TEST(they_are_exported_as_gltf)
-{
-    const char *const names[] = {"out.glb", "out.gltf"};
-    for (int n = 0; n < 2; n++) {
-        struct gltf gltf;
-        assert_done(gltf_read(export_cube(names[n]), &gltf, &error));
-        assert_null(gltf.not_shown);
-        assert_int_equal(gltf.meshes[0].part_count, 2);
-        assert_int_equal(gltf.materials[TEXTURED].image, 0);
-        assert_int_equal(gltf.images[0].width, 16);
-        assert_near((double)gltf.materials[GREEN].color[1], 0.5, 0);
-        assert_int_equal(gltf.meshes[0].parts[1].material, GREEN);
-        const struct gltf_part *parts = gltf.meshes[0].parts;
-        assert_non_null(parts[0].uv);
-        assert_ptr_equal(parts[0].position, parts[1].position); // vertices that both have are there once
-        assert_ptr_equal(parts[0].uv, parts[1].uv);
-        gltf_free(&gltf);
-    }
-    for (int n = 0; n < 2; n++) {
-        struct character c = read_character(names[n]);
-        assert_looks(&c);
-        character_free(&c);
-    }
-}
-
 TEST(they_are_exported_as_usd_with_quads)
 {
-    size_t size, picture_size, original_size;
-    char *text = bytes_of(export_cube("out.usda"), &size);
     static const char *const expected[] = {
         "int[] faceVertexCounts = [4, 4, 4, 4, 4, 4]",
         "asset inputs:file = @./out_textures/sides_0.png@",
@@ -135,108 +126,97 @@ TEST(they_are_exported_as_usd_with_quads)
         "color3f inputs:diffuseColor = (0, 0.5, 0)",
         "texCoord2f[] primvars:st = [",
     };
-    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+    size_t size;
+    struct opened scene = open_scene(folder_path("scene.json"));
+    char *text = bytes_of(export_opened(&scene, "out.usda", (struct export_options){0}), &size);
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
         if (!strstr(text, expected[i])) fail_msg("the .usda lacks %s", expected[i]);
-    }
     free(text);
-    char *picture = bytes_of(folder_path("out_textures/sides_0.png"), &picture_size);
-    char *original = bytes_of(folder_path("two.png"), &original_size);
-    assert_int_equal(picture_size, original_size);
-    assert_memory_equal(picture, original, original_size);
+    close_scene(&scene);
+    char *picture = bytes_of(folder_path("two.png"), &size);
+    assert_same_file("out_textures/sides_0.png", picture, size);
     free(picture);
-    free(original);
 }
 
-typedef unsigned char picture[HEIGHT][WIDTH][4];
-
-/// The figure from the front and a little from above.
-static void draw(const struct figure *figure, int map_coordinate, picture pixels)
+/// A cube from the front and a little from above, which the character is freed with.
+static void draw_cube(struct character *c, int map_coordinate, struct shot *shot)
 {
+    static struct stage_view view;
     const float lo[3] = {-0.7f, 0, -0.7f}, hi[3] = {0.7f, 1.2f, 0.7f};
-    const struct stage_character character = {.figure = figure, .map_coordinate = map_coordinate};
-    offscreen_draw_characters(&character, 1, lo, hi, WIDTH, HEIGHT, pixels);
-}
-
-/// Pixels in which channel k is more than twice the others.
-static int pixels_of(const picture pixels, int k)
-{
-    int count = 0;
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        const unsigned char *p = pixels[i / WIDTH][i % WIDTH];
-        const int other = p[(k + 1) % 3] > p[(k + 2) % 3] ? p[(k + 1) % 3] : p[(k + 2) % 3];
-        count += p[k] > 2 * other + 30;
-    }
-    return count;
-}
-
-TEST(they_are_seen_on_the_stage)
-{
-    static picture seen, mapped;
+    struct figure figure = puppet_figure(c);
     if (!platform) skip();
-    struct character c = read_character("cube.glb");
-    struct figure figure;
-    figure_create(&figure, &c);
-    draw(&figure, -1, seen);
-    for (int k = 0; k < 3; k++) {
-        if (pixels_of(seen, k) < 200) fail_msg("channel %d: %d pixels", k, pixels_of(seen, k));
-    }
-    draw(&figure, 0, mapped);
-    assert_true(pixels_of(mapped, 1) < 20 && pixels_of(mapped, 0) < 20); // the phase map has colours of its own
+    look_at(&view, lo, hi, shot);
+    view.characters[view.character_count++] =
+        (struct stage_character){.figure = &figure, .map_coordinate = map_coordinate};
+    shoot(&view, shot);
     figure_free(&figure);
 }
 
-/// Through a top of half an alpha the background is seen, on which it lies as on glass; the sides stay as they were.
-TEST(what_is_half_clear_is_seen_through)
+/// Whether channel k is more than twice the others.
+static bool is_of(const unsigned char *p, int k)
 {
-    static picture opaque, clear, none;
-    if (!platform) skip();
+    const int a = p[(k + 1) % 3], b = p[(k + 2) % 3];
+    return p[k] > 2 * (a > b ? a : b) + 30;
+}
+
+static int pixels_of(const struct shot *shot, int k)
+{
+    int count = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) count += is_of(shot->pixel[i], k);
+    return count;
+}
+
+/// Red, green and blue; but on the phase map, which has colours of its own. Through a top of half an alpha the background is seen, on which it
+/// lies as on glass; the sides stay as they were.
+TEST(they_are_seen_on_the_stage)
+{
+    struct shot *const shots[] = {&one, &other, &third};
     for (int i = 0; i < 3; i++) {
         struct character c = read_character("cube.glb");
-        struct figure figure;
         if (i > 0) c.looks.materials[GREEN].color[3] = i == 1 ? 0.5f : 0;
-        figure_create(&figure, &c);
-        draw(&figure, -1, i == 0 ? opaque : i == 1 ? clear : none);
-        figure_free(&figure);
+        draw_cube(&c, -1, shots[i]);
     }
     int between = 0, green = 0;
-    for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        const unsigned char *full = opaque[i / WIDTH][i % WIDTH], *half = clear[i / WIDTH][i % WIDTH],
-                            *behind = none[i / WIDTH][i % WIDTH];
-        if (!(full[1] > 2 * full[0] + 30 && full[1] > 2 * full[2] + 30)) continue;
-        green++;
-        between += half[1] < full[1] - 5 && half[1] > behind[1] + 5;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const int full = one.pixel[i][1], half = other.pixel[i][1], none = third.pixel[i][1];
+        green += is_of(one.pixel[i], 1);
+        between += is_of(one.pixel[i], 1) && half < full - 5 && half > none + 5;
     }
     if (green < 100 || between < 2 * green / 3) fail_msg("of %d green pixels %d are seen through", green, between);
-    for (int k = 0; k < 3; k += 2)
-        assert_near(pixels_of(clear, k), pixels_of(opaque, k), 100); // but at the top's edges
+    for (int k = 0; k < 3; k++) {
+        if (pixels_of(&one, k) < 300) fail_msg("channel %d: %d pixels", k, pixels_of(&one, k));
+        if (k != 1) assert_near(pixels_of(&other, k), pixels_of(&one, k), 180); // but at the top's edges
+    }
+    struct character c = read_character("cube.glb");
+    draw_cube(&c, 0, &other);
+    assert_true(pixels_of(&other, 1) < 30 && pixels_of(&other, 0) < 30);
 }
 
 /// Slopes of a picture that is drawn smaller than it is stay even, so that nothing glitters when it moves.
 TEST(a_far_picture_is_smooth)
 {
-    enum { SIDE = 128 };
-    static unsigned char waves[SIDE][SIDE][4];
-    static picture seen;
-    if (!platform) skip();
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        memset(waves[i / SIDE][i % SIDE], 32 + 6 * abs(i % 64 - 32), 3);
-        waves[i / SIDE][i % SIDE][3] = 255;
+    enum { PICTURE = 128 };
+    static unsigned char waves[PICTURE][PICTURE][4];
+    for (int i = 0; i < PICTURE * PICTURE; i++) {
+        memset(waves[i / PICTURE][i % PICTURE], 32 + 6 * abs(i % 64 - 32), 3);
+        waves[i / PICTURE][i % PICTURE][3] = 255;
     }
-    assert_done(png_write(folder_path("waves.png"), SIDE, SIDE, waves[0][0], &error));
+    assert_done(png_write(folder_path("waves.png"), PICTURE, PICTURE, waves[0][0], &error));
     struct character c = read_character("cube.glb");
     struct looks_material *sides = &c.looks.materials[TEXTURED];
     free(sides->image);
     sides->image = (unsigned char *)bytes_of(folder_path("waves.png"), &sides->image_size);
-    struct figure figure;
-    figure_create(&figure, &c);
-    draw(&figure, -1, seen);
+    struct shot *const shot = &third;
+    shot->width = 200;
+    shot->height = 160;
+    draw_cube(&c, -1, shot);
     int uneven = 0;
-    for (int x = WIDTH / 2 - 20; x < WIDTH / 2 + 20; x++) {
-        const unsigned char(*p)[4] = &seen[HEIGHT / 2][x];
-        uneven += abs(p[-1][0] - 2 * p[0][0] + p[1][0]) > 4;
+    for (int x = shot->width / 2 - 20; x < shot->width / 2 + 20; x++) {
+        const unsigned char *before = pixel_at(shot, x - 1, shot->height / 2);
+        uneven += abs(before[0] - 2 * before[4] + before[8]) > 4;
     }
+    shot->width = shot->height = SIDE;
     if (uneven > 8) fail_msg("the slope changes at %d of 40 pixels", uneven);
-    figure_free(&figure);
 }
 
 /// Of a ball, which is drawn coarser in a pair, the lower half stays red and the upper green.
@@ -259,12 +239,123 @@ TEST(coarse_triangles_keep_their_material)
     figure_free(&figure);
 }
 
-static int open_all(void **state) { return make_cube(state) || offscreen_open(WIDTH, HEIGHT); }
+// --- textures and normals of glTF files
 
-static int close_all(void **state)
+/// Draws the nodes of a file that lie from −1 to 1, on the ground.
+static void draw_built(struct builder *b, const char *members, struct shot *shot)
 {
-    offscreen_close(state);
-    return folder_remove(state);
+    static struct stage_view view;
+    const float lo[3] = {-1, 0, -1}, hi[3] = {1, 2, 1};
+    struct gltf gltf;
+    struct gltf_pose pose;
+    if (!platform) skip();
+    read_text(builder_json(b, members), &gltf);
+    assert_true(gltf_pose_create(&gltf, &pose));
+    gltf_pose_world(&gltf, &pose);
+    look_at(&view, lo, hi, shot);
+    view.models[view.model_count++] = (struct stage_model){.gltf = &gltf,
+                                                           .pose = &pose,
+                                                           .lo = {-1, 0, 0},
+                                                           .hi = {1, 2, 0},
+                                                           .root = {[0] = 1, [5] = 1, [10] = 1, [15] = 1}};
+    shoot(&view, shot);
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
+}
+
+/// A square that shows u and v from `from` to `to` of a picture, which a sampler reads.
+static void draw_square(const char *sampler, float from, float to, const void *pixels, int side, struct shot *shot)
+{
+    char members[1024];
+    struct builder b = {0};
+    assert_done(png_write(temporary_path("square.png"), side, side, pixels, &error));
+    ADD(&b, FLOAT, float, 3, -1, 0, 0, 1, 0, 0, -1, 2, 0, 1, 2, 0);
+    ADD(&b, FLOAT, float, 2, from, to, to, to, from, from, to, from);
+    ADD(&b, USHORT, uint16_t, 1, 0, 1, 2, 2, 1, 3);
+    snprintf(
+        members, sizeof members,
+        "'images':[{'uri':'square.png'}],'samplers':[{},{%s}],'textures':[{'source':0,'sampler':1}],'materials':[{"
+        "'doubleSided':true,'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}],'meshes':[{'primitives':[{"
+        "'attributes':{'POSITION':0,'TEXCOORD_0':1},'indices':2,'material':0}]}],'nodes':[{'mesh':0}],'scenes':[{"
+        "'nodes':[0]}]",
+        sampler);
+    draw_built(&b, members, shot);
+}
+
+#define NEAREST "'minFilter': 9728, 'magFilter': 9728"
+
+static const unsigned char texels[2][2][4] = {{{230, 40, 30, 255}, {30, 60, 220, 255}},
+                                              {{240, 220, 60, 255}, {60, 200, 90, 255}}};
+
+TEST(textures_go_on_as_the_file_says)
+{
+    static const struct {
+        const char *wrap;
+        int column[4], row[4]; ///< from one before the picture to one behind it, half a picture each
+    } rows[] = {
+        {"'wrapS': 10497, 'wrapT': 10497, " NEAREST, {1, 0, 1, 0}, {1, 0, 1, 0}},
+        {"'wrapS': 33071, 'wrapT': 33071, " NEAREST, {0, 0, 1, 1}, {0, 0, 1, 1}},
+        {"'wrapS': 33648, 'wrapT': 33071, " NEAREST, {0, 0, 1, 1}, {0, 0, 1, 1}},
+        {"'wrapS': 33071, 'wrapT': 10497, " NEAREST, {0, 0, 1, 1}, {1, 0, 1, 0}},
+        {"'wrapS': 10497, 'wrapT': 33648, " NEAREST, {1, 0, 1, 0}, {0, 0, 1, 1}},
+    };
+    draw_square(NEAREST, -0.5f, 1.5f, texels, 2, &third);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        unsigned char made[4][4][4]; // of which texel (x, y) is one of the picture's
+        for (int t = 0; t < 16; t++) memcpy(made[t / 4][t % 4], texels[rows[i].row[t / 4]][rows[i].column[t % 4]], 4);
+        draw_square(rows[i].wrap, -0.5f, 1.5f, texels, 2, &one);
+        draw_square(NEAREST, 0, 1, made, 4, &other);
+        if (differing(&one, &other, 0) >= 40) fail_msg("%s", rows[i].wrap); // rounding, on the edges of texels
+        if ((differing(&one, &third, 0) > 1000) != (i > 0)) fail_msg("%s is as if it was not there", rows[i].wrap);
+    }
+    // Further out mirroring and clamping are not the same.
+    draw_square("'wrapS': 33648, " NEAREST, 0, 3, texels, 2, &one);
+    draw_square("'wrapS': 33071, " NEAREST, 0, 3, texels, 2, &other);
+    assert_true(differing(&one, &other, 0) > 1000);
+}
+
+/// Pixels that differ from their left neighbour, half-way up.
+static int changes(const struct shot *shot)
+{
+    int count = 0;
+    for (int x = 1; x < SIDE; x++)
+        count += memcmp(pixel_at(shot, x, SIDE / 2), pixel_at(shot, x - 1, SIDE / 2), 4) != 0;
+    return count;
+}
+
+TEST(a_near_texture_has_edges_or_none)
+{
+    draw_square("'magFilter': 9728", 0, 1, texels, 2, &one);
+    draw_square("'magFilter': 9729", 0, 1, texels, 2, &other);
+    assert_true(differing(&one, &other, 0) > 1000);
+    assert_true(changes(&one) < changes(&other));
+    draw_square("'magFilter': 7, 'wrapS': 'none'", 0, 1, texels, 2, &one); // what glTF does not know
+    assert_int_equal(differing(&one, &other, 0), 0);
+}
+
+/// A tent of four vertices without normals looks as with six and the normals of its sides.
+TEST(a_mesh_without_normals_is_flat)
+{
+    static const float corner[4][3] = {{-1, 0, 0}, {0, 2, 0.5f}, {0, 0, 1}, {1, 0, 0}};
+    static const uint16_t indices[6] = {0, 2, 1, 2, 3, 1};
+    struct builder with = {0}, without = {0};
+    float position[6][3], normal[6][3];
+    for (int i = 0; i < 6; i++) {
+        const uint16_t *side = indices + i / 3 * 3;
+        const vec3s across = triangle_normal(corner[side[0]], corner[side[1]], corner[side[2]]);
+        memcpy(position[i], corner[indices[i]], sizeof position[i]);
+        memcpy(normal[i], glms_vec3_normalize(across).raw, sizeof normal[i]);
+    }
+    add_data(&with, FLOAT, "VEC3", 6, position, sizeof position);
+    add_data(&with, FLOAT, "VEC3", 6, normal, sizeof normal);
+    add_data(&without, FLOAT, "VEC3", 4, corner, sizeof corner);
+    add_data(&without, USHORT, "SCALAR", 6, indices, sizeof indices);
+#define TENT(attributes) "'meshes':[{'primitives':[{'attributes':{" attributes "}]}],'nodes':[{'mesh':0}]"
+    draw_built(&with, TENT("'POSITION':0,'NORMAL':1}"), &one);
+    draw_built(&without, TENT("'POSITION':0},'indices':1"), &other);
+    assert_int_equal(differing(&one, &other, 2), 0);
+    assert_true(memcmp(pixel_at(&one, SIDE * 2 / 5, SIDE / 2), pixel_at(&one, SIDE * 3 / 5, SIDE / 2), 3) !=
+                0); // lit from one side
 }
 
 TESTS_BETWEEN(open_all, close_all)

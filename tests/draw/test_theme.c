@@ -226,7 +226,7 @@ static void check_splines(void)
 TEST(test_splines_are_apart) { each_theme(check_splines); }
 
 /// All eighths of a turn, not only neighbours, where the amplitude is the largest. Between them the surface has lines:
-/// a_line_divides_eighths_of_a_turn in test_character_draw.c.
+/// phases_are_the_legends_colours_and_a_line_divides_eighths in test_stage.c.
 TEST(test_phases_are_apart)
 {
     enum { PHASES = 8 };
