@@ -4,155 +4,147 @@
 #include "near.h"
 #include "ui/theme.h"
 
-static void each_theme(void (*check)(void))
+/// A test in each theme.
+#define THEME_TEST(name)                                                                                             \
+    static void name##_in(const struct theme *t);                                                                    \
+    TEST(name)                                                                                                       \
+    {                                                                                                                \
+        for (int kind = 0; kind < THEME_COUNT; kind++) {                                                             \
+            theme_use((enum theme_kind)kind);                                                                        \
+            name##_in(theme());                                                                                      \
+        }                                                                                                            \
+        theme_use(THEME_DARK);                                                                                       \
+    }                                                                                                                \
+    static void name##_in(const struct theme *t)
+
+/// Black on white is 21, and a grey that the definition gives by hand: #777777 has luminance 0.1845.
+TEST(contrast_is_the_definition)
 {
-    for (int kind = 0; kind < THEME_COUNT; kind++) {
-        theme_use((enum theme_kind)kind);
-        check();
-    }
-    theme_use(THEME_DARK);
+    assert_near(theme_contrast(0x000000FFu, 0xFFFFFFFFu), 21, 1e-5);
+    assert_near(theme_contrast(0x777777FFu, 0xFFFFFFFFu), 1.05 / 0.2345, 0.01);
+    assert_near(theme_contrast(0x123456FFu, 0x123456FFu), 1, 1e-6);
+    assert_int_equal(theme_find("dark"), THEME_DARK);
+    assert_int_equal(theme_find("light"), THEME_LIGHT);
+    assert_int_equal(theme_find("solarised"), -1);
 }
 
-static void assert_contrast(uint32_t color, uint32_t background, float least)
-{
-    float contrast = theme_contrast(color, background);
-    if (contrast < least) {
-        print_error("%s theme: #%06X on #%06X has a contrast of %.2f\n", theme()->name, color >> 8, background >> 8,
-                    (double)contrast);
-    }
-    assert_true(contrast >= least);
-}
+// --- what lies under texts and controls, as it is seen, in bits
 
-// Black on white is 21, and a grey that the definition gives by hand: #777777 has luminance 0.1845.
-TEST(test_contrast_is_the_definition)
-{
-    assert_near((double)theme_contrast(0x000000FFu, 0xFFFFFFFFu), 21, 1e-5);
-    assert_near((double)theme_contrast(0x777777FFu, 0xFFFFFFFFu), 1.05 / 0.2345, 0.01);
-    assert_near((double)theme_contrast(0x123456FFu, 0x123456FFu), 1, 1e-6);
-}
-
-/// What lies under texts and controls, as it is seen.
-enum surface {
-    PANEL,   ///< of curves, inspector, status line, dialogs, help
-    FIELD,   ///< fields, popups, warnings, a row under the pointer, the plot of poles
-    OUTSIDE, ///< the plot before and after the scene's range
-    FILL,    ///< the filled part of a bar, buttons, a selected row, an icon under the pointer
-    HOVER,   ///< the same under the pointer; the chosen segment
-    HELD,    ///< the filled part of a bar that is dragged
-    MARKED,  ///< selected text
-    RANGE,   ///< the ruler where only a part of the scene plays
-    LEGEND,  ///< of the phase map, over the brightest of the stage
-    SKY,     ///< of the stage, at the top
-    HORIZON, ///< at the bottom
-    GROUND,  ///< where it is brightest
-    PRIMARY, ///< the main button, a toggle that is on
-    TAG,     ///< of the frame
-    SURFACES
+enum {
+    PANEL = 1,         ///< of curves, inspector, status line, dialogs, help
+    FIELD = 1 << 1,    ///< fields, popups, warnings, a row under the pointer, the plot of poles
+    OUTSIDE = 1 << 2,  ///< the plot before and after the scene's range
+    FILL = 1 << 3,     ///< the filled part of a bar, buttons, a selected row, an icon under the pointer
+    HOVER = 1 << 4,    ///< the same under the pointer; the chosen segment
+    HELD = 1 << 5,     ///< the filled part of a bar that is dragged
+    MARKED = 1 << 6,   ///< selected text
+    RANGE = 1 << 7,    ///< the ruler where only a part of the scene plays
+    LEGEND = 1 << 8,   ///< of the phase map, over the brightest of the stage
+    SKY = 1 << 9,      ///< of the stage, at the top
+    HORIZON = 1 << 10, ///< at the bottom
+    GROUND = 1 << 11,  ///< where it is brightest
+    PRIMARY = 1 << 12, ///< the main button, a toggle that is on
+    TAG = 1 << 13,     ///< of the frame
+    SURFACES = 14,
+    PANELS = PANEL | FIELD | OUTSIDE,
+    STAGE = SKY | HORIZON | GROUND | LEGEND
 };
 
-static uint32_t surface(enum surface which)
+static uint32_t surface(int which)
 {
     const struct theme *t = theme();
-    const uint32_t legend = (t->panel & 0xFFFFFF00u) | 0xD8u;
-    const uint32_t seen[SURFACES] = {[PANEL] = t->panel,
-                                     [FIELD] = t->raised,
-                                     [OUTSIDE] = t->outside,
-                                     [FILL] = t->fill,
-                                     [HOVER] = t->hover,
-                                     [HELD] = color_blend(theme_fade(t->accent, 0.35f), t->raised),
-                                     [MARKED] = color_blend(theme_fade(t->accent, 0.3f), t->raised),
-                                     [RANGE] = color_blend(theme_fade(t->accent, 0.14f), t->panel),
-                                     [LEGEND] = color_blend(legend, t->stage.ground),
-                                     [SKY] = t->stage.top,
-                                     [HORIZON] = t->stage.bottom,
-                                     [GROUND] = t->stage.ground,
-                                     [PRIMARY] = t->accent,
-                                     [TAG] = t->playhead};
+    const uint32_t seen[SURFACES] = {t->panel,
+                                     t->raised,
+                                     t->outside,
+                                     t->fill,
+                                     t->hover,
+                                     color_blend(theme_fade(t->accent, 0.35f), t->raised),
+                                     color_blend(theme_fade(t->accent, 0.3f), t->raised),
+                                     color_blend(theme_fade(t->accent, 0.14f), t->panel),
+                                     color_blend((t->panel & 0xFFFFFF00u) | 0xD8u, t->stage.ground),
+                                     t->stage.top,
+                                     t->stage.bottom,
+                                     t->stage.ground,
+                                     t->accent,
+                                     t->playhead};
     return seen[which];
 }
 
-/// A colour of the theme and the surfaces, as bits, on which the app has it.
+/// A colour of the theme and the surfaces on which the app has it.
 struct use {
     const char *what;
     uint32_t color;
-    unsigned on;
+    int on;
 };
 
 static void check_uses(const struct use *uses, size_t count, float least)
 {
     for (size_t i = 0; i < count; i++) {
         for (int s = 0; s < SURFACES; s++) {
-            if (!(uses[i].on >> s & 1u)) continue;
-            const float contrast = theme_contrast(uses[i].color, surface((enum surface)s));
-            if (contrast >= least) continue;
-            fail_msg("%s theme: %s, #%06X on #%06X, has a contrast of %.2f", theme()->name, uses[i].what,
-                     uses[i].color >> 8, surface((enum surface)s) >> 8, (double)contrast);
+            const float contrast = theme_contrast(uses[i].color, surface(s));
+            if ((uses[i].on >> s & 1) && contrast < least)
+                fail_msg("%s theme: %s, #%06X on #%06X, has a contrast of %.2f", theme()->name, uses[i].what,
+                         uses[i].color >> 8, surface(s) >> 8, (double)contrast);
         }
     }
 }
 
-#define ON(surface) (1u << (surface))
-
-static void check_text(void)
+THEME_TEST(text_can_be_read)
 {
-    const struct theme *t = theme();
-    const unsigned panels = ON(PANEL) | ON(FIELD) | ON(OUTSIDE),
-                   stage = ON(SKY) | ON(HORIZON) | ON(GROUND) | ON(LEGEND);
     const struct use uses[] = {
-        {"text", t->text, panels | stage | ON(FILL) | ON(HOVER) | ON(HELD) | ON(MARKED) | ON(RANGE)},
-        {"dimmed text", t->text_dim, panels | stage | ON(FILL) | ON(HOVER) | ON(RANGE)},
-        {"accent", t->accent, panels},
-        {"a warning", t->warning, panels},
-        {"an error", t->error, panels},
-        {"what is on accent or a tag", t->panel, ON(PRIMARY) | ON(TAG)},
+        {"text", t->text, PANELS | STAGE | FILL | HOVER | HELD | MARKED | RANGE},
+        {"dimmed text", t->text_dim, PANELS | STAGE | FILL | HOVER | RANGE},
+        {"accent", t->accent, PANELS},
+        {"a warning", t->warning, PANELS},
+        {"an error", t->error, PANELS},
+        {"what is on accent or a tag", t->panel, PRIMARY | TAG},
     };
     check_uses(uses, sizeof uses / sizeof *uses, 4.5f);
 }
 
-TEST(test_text_can_be_read) { each_theme(check_text); }
-
 /// What shows that there is a control, and its state: WCAG 2.2, success criterion 1.4.11. Grids and hairlines between sections
 /// are decoration.
-static void check_controls(void)
+THEME_TEST(controls_are_seen)
 {
-    const struct theme *t = theme();
-    const unsigned panels = ON(PANEL) | ON(FIELD) | ON(OUTSIDE);
     const struct use uses[] = {
-        {"an outline or a thumb", t->control, panels},
+        {"an outline or a thumb", t->control, PANELS},
         {"an outline under the pointer, a slider's handle or strip, a toggle's knob, an icon or a grip", t->text_dim,
-         panels | ON(FILL) | ON(HOVER) | ON(HORIZON) | ON(GROUND)},
-        {"focus, what is chosen, a held handle, or an icon that is lit", t->accent, panels | ON(FILL) | ON(HOVER)},
-        {"a refused field", t->error, panels},
-        {"a toggle's knob", t->panel, ON(PRIMARY)},
-        {"a grip under the pointer", t->text, panels | ON(HORIZON) | ON(GROUND)},
-        {"the playhead, a ring, or a box", t->playhead, panels},
-        {"the equilibrium", t->equilibrium, panels},
-        {"a triangle that warns", t->warning, panels},
+         PANELS | FILL | HOVER | HORIZON | GROUND},
+        {"focus, what is chosen, a held handle, or an icon that is lit", t->accent, PANELS | FILL | HOVER},
+        {"a refused field", t->error, PANELS},
+        {"a toggle's knob", t->panel, PRIMARY},
+        {"a grip under the pointer", t->text, PANELS | HORIZON | GROUND},
+        {"the playhead, a ring, or a box", t->playhead, PANELS},
+        {"the equilibrium", t->equilibrium, PANELS},
+        {"a triangle that warns", t->warning, PANELS},
     };
     check_uses(uses, sizeof uses / sizeof *uses, 3);
 }
 
-TEST(test_controls_are_seen) { each_theme(check_controls); }
-
-static void check_curves(void)
+static uint32_t faded(int spline)
 {
-    for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
-        const uint32_t color = theme()->spline[i];
-        const uint32_t other = color_blend(theme_fade(color, THEME_OTHERS), theme()->panel);
-        const struct use use[] = {{"a curve or a swatch", color, ON(PANEL) | ON(FIELD) | ON(OUTSIDE) | ON(FILL)},
-                                  {"another curve", other, ON(PANEL)}};
-        check_uses(use, 2, 3);
-        assert_contrast(theme_readable(color, theme()->panel, 4.5f), theme()->panel, 4.5f);
-        assert_true(theme_spline(theme_spline_rgb(i)) == color);
-    }
-    assert_contrast(theme_spline(0x101010), theme()->panel, 3);
-    assert_contrast(theme_spline(0xFFFFF0), theme()->panel, 3);
+    return color_blend(theme_fade(theme()->spline[spline], THEME_OTHERS), theme()->panel);
 }
 
-TEST(test_curves_are_seen) { each_theme(check_curves); }
+THEME_TEST(curves_are_seen)
+{
+    const struct use odd[] = {{"a spline's own black", theme_spline(0x101010), PANEL},
+                              {"a spline's own white", theme_spline(0xFFFFF0), PANEL}};
+    check_uses(odd, 2, 3);
+    for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
+        const uint32_t color = t->spline[i];
+        const struct use uses[] = {{"a curve or a swatch", color, PANELS | FILL}, {"another curve", faded(i), PANEL}};
+        const struct use name = {"a curve's name", theme_readable(color, t->panel, 4.5f), PANEL};
+        check_uses(uses, 2, 3);
+        check_uses(&name, 1, 4.5f);
+        assert_true(theme_spline(theme_spline_rgb(i)) == color);
+    }
+}
+
+// --- what is told apart
 
 /// Table 1 of Sharma, Wu and Dalal 2005: pairs at which implementations of CIEDE2000 go wrong.
-TEST(test_differences_are_ciede2000)
+TEST(differences_are_ciede2000)
 {
     static const struct {
         double one[3], other[3], difference;
@@ -176,71 +168,57 @@ TEST(test_differences_are_ciede2000)
 }
 
 /// Greys stay what they are to all eyes; colours that one kind confuses come together.
-TEST(test_eyes_are_blind_to_what_they_should_be)
+TEST(eyes_are_blind_to_what_they_should_be)
 {
-    static const struct {
-        enum color_eyes eyes;
-        uint32_t one, other;
-    } confused[] = {
-        {EYES_PROTANOPIA, 0xA05000FFu, 0x5A5F00FFu},           {EYES_DEUTERANOPIA, 0xC06A00FFu, 0x808000FFu},
-        {EYES_TRITANOPIA, 0x30A0C0FFu, 0x30A890FFu},           {EYES_PROTANOPIA_BRETTEL, 0xA05000FFu, 0x5A5F00FFu},
-        {EYES_DEUTERANOPIA_BRETTEL, 0xC06A00FFu, 0x808000FFu}, {EYES_TRITANOPIA_BRETTEL, 0x30A0C0FFu, 0x30A890FFu},
-    };
-    for (int eyes = 0; eyes < EYES_COUNT; eyes++) {
+    static const uint32_t confused[EYES_COUNT][2] = {{0, 0},
+                                                     {0xA05000FFu, 0x5A5F00FFu},
+                                                     {0xC06A00FFu, 0x808000FFu},
+                                                     {0x30A0C0FFu, 0x30A890FFu},
+                                                     {0xA05000FFu, 0x5A5F00FFu},
+                                                     {0xC06A00FFu, 0x808000FFu},
+                                                     {0x30A0C0FFu, 0x30A890FFu}};
+    for (int i = 0; i < EYES_COUNT; i++) {
+        const enum color_eyes eyes = (enum color_eyes)i;
+        const uint32_t *pair = confused[i];
         double lab[3];
-        color_lab(0x777777FFu, (enum color_eyes)eyes, lab);
+        color_lab(0x777777FFu, eyes, lab);
         assert_near(lab[0], 50.03, 0.02); // of #777777 by definition: 116 ∛0.1845 − 16
         assert_near(hypot(lab[1], lab[2]), 0, 0.05);
-    }
-    for (size_t i = 0; i < sizeof confused / sizeof *confused; i++) {
-        const double all = color_difference(confused[i].one, confused[i].other, EYES_WITH_ALL_CONES);
-        const double seen = color_difference(confused[i].one, confused[i].other, confused[i].eyes);
-        assert_true(seen < 0.2 * all);
+        if (i == EYES_WITH_ALL_CONES) continue;
+        const double all = color_difference(pair[0], pair[1], EYES_WITH_ALL_CONES);
+        if (!(color_difference(pair[0], pair[1], eyes) < 0.2 * all)) fail_msg("%s", color_eyes_name(eyes));
     }
 }
 
 /// Every two of the colours are 10 or more apart to all eyes.
 static void assert_apart(const uint32_t *colors, int count, const char *what)
 {
-    for (int eyes = 0; eyes < EYES_COUNT; eyes++) {
-        for (int i = 0; i < count; i++) {
-            for (int j = 0; j < i; j++) {
-                const double apart = color_difference(colors[i], colors[j], (enum color_eyes)eyes);
-                if (apart >= 10) continue;
-                fail_msg("%s theme, %s: %s %d and %d, #%06X and #%06X, are %.1f apart", theme()->name,
-                         color_eyes_name((enum color_eyes)eyes), what, j, i, colors[j] >> 8, colors[i] >> 8, apart);
-            }
-        }
+    for (int i = 0; i < EYES_COUNT * count * count; i++) {
+        const enum color_eyes eyes = (enum color_eyes)(i / count / count);
+        const int one = i / count % count, other = i % count;
+        const double apart = color_difference(colors[one], colors[other], eyes);
+        if (one < other && apart < 10)
+            fail_msg("%s theme, %s: %s %d and %d, #%06X and #%06X, are %.1f apart", theme()->name,
+                     color_eyes_name(eyes), what, one, other, colors[one] >> 8, colors[other] >> 8, apart);
     }
 }
 
-static void check_splines(void)
+THEME_TEST(splines_are_apart)
 {
     uint32_t others[THEME_SPLINE_COLORS];
-    for (int i = 0; i < THEME_SPLINE_COLORS; i++)
-        others[i] = color_blend(theme_fade(theme()->spline[i], THEME_OTHERS), theme()->panel);
-    assert_apart(theme()->spline, THEME_SPLINE_COLORS, "splines");
+    for (int i = 0; i < THEME_SPLINE_COLORS; i++) others[i] = faded(i);
+    assert_apart(t->spline, THEME_SPLINE_COLORS, "splines");
     assert_apart(others, THEME_SPLINE_COLORS, "splines that are not active");
 }
 
-TEST(test_splines_are_apart) { each_theme(check_splines); }
-
 /// All eighths of a turn, not only neighbours, where the amplitude is the largest. Between them the surface has lines:
 /// phases_are_the_legends_colours_and_a_line_divides_eighths in test_stage.c.
-TEST(test_phases_are_apart)
+TEST(phases_are_apart)
 {
-    enum { PHASES = 8 };
-    uint32_t colors[PHASES];
-    for (int i = 0; i < PHASES; i++) {
+    uint32_t colors[8];
+    for (int i = 0; i < 8; i++) {
         const float angle = 0.785398163f * (float)i;
         colors[i] = phase_color(cosf(angle), sinf(angle));
     }
-    assert_apart(colors, PHASES, "eighths of a turn");
-}
-
-TEST(test_names)
-{
-    assert_int_equal(theme_find("dark"), THEME_DARK);
-    assert_int_equal(theme_find("light"), THEME_LIGHT);
-    assert_int_equal(theme_find("solarised"), -1);
+    assert_apart(colors, 8, "eighths of a turn");
 }
