@@ -109,8 +109,8 @@ static inline const double *frame_of(const struct points *points, int frame)
     return points->number + 3 * (ptrdiff_t)points->vertices * frame;
 }
 
-/// A glTF file's largest distance from a motion, over all vertices and coordinates, at `frames` evenly spaced times.
-static inline double glb_clip_is_off(const char *path, const char *name, const struct points *points)
+/// A glTF file's largest distance from a motion, over all vertices and coordinates, at evenly spaced times. Without a name it has one clip.
+static inline double glb_is_off(const char *path, const char *name, const struct points *points)
 {
     struct gltf gltf;
     struct gltf_pose pose;
@@ -144,13 +144,6 @@ static inline char *bytes_of(const char *path, size_t *size)
     char *data;
     assert_done(file_read(path, 1 << 28, &data, size, &error));
     return data;
-}
-
-static inline uint32_t word_at(const char *bytes)
-{
-    uint32_t word;
-    memcpy(&word, bytes, sizeof word);
-    return word;
 }
 
 static inline int files_in_folder(void)
