@@ -68,14 +68,6 @@ static inline struct opened *kept_scene(const char *path)
     return &kept[k].scene;
 }
 
-static inline const char *export_file(const char *scene_path, const char *file, struct export_options options)
-{
-    struct opened scene = open_scene(scene_path);
-    const char *path = export_opened(&scene, file, options);
-    close_scene(&scene);
-    return path;
-}
-
 /// Exports a scene from assets/scenes.
 static inline const char *export_scene(const char *name, const char *file, struct export_options options)
 {
