@@ -314,6 +314,8 @@ TEST(what_cannot_be_analysed_gets_one_sentence)
         {40, 0, "settles", "expected an oscillation, got none; --method cpca takes any motion"},
         {40, 25, "settles",
          "expected an oscillation in the 15 frames after the drive, got none; simulate for longer"},
+        {12, 6, "settles", "expected 8 frames or more after the drive stops, got 6"},
+        {12, 20, "settles", "expected 8 frames or more after the drive stops, got 0"},
         {7, 0, "drifts", "expected 8 to 4096 frames, got 7"},
         {1, 0, "drifts", "expected 8 to 4096 frames, got 1"},
         {4097, 0, "rests", "expected 8 to 4096 frames, got 4097"},
@@ -484,6 +486,14 @@ TEST(few_knots_move_it_so)
         assert_near(c->damping, forced ? 0 : 0.05, 0.002);
         knots_create(&knots, c, p.fps);
         assert_near(component_error(c, knots.series), knots.error, 0);
+        double left = 0, whole = 0; // that error, sample by sample
+        for (int n = 0; forced && n < p.frames * COLUMNS; n++) {
+            const int i = n / COLUMNS, j = n % COLUMNS;
+            const double moved = driven(i, j, &p) - a.mean[j / 3][j % 3];
+            left += pow(moved - creal(knots.series[i] * c->shape[j / 3][j % 3]), 2);
+            whole += moved * moved;
+        }
+        if (forced) assert_near(sqrt(left / whole) / knots.error, 1, 0.02);
         if (!(knots.error <= 1.1 * component_error(c, c->series)))
             fail_msg("%d knots leave %g, the coordinate %g", knots.count, knots.error, component_error(c, c->series));
         assert_true(forced ? knots.count <= KNOTS_MOST : knots.count <= 2);

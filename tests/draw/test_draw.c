@@ -94,36 +94,35 @@ static double ink(int x0, int y0, int x1, int y1)
     return sum;
 }
 
-/// White things on black: the ink of each, and how much of some pixels it covers.
+/// White things on black: the ink of each, and how much of some pixels is covered.
 TEST(shapes_cover_their_area)
 {
-    static const struct row {
+    static const struct {
         const char *what;
-        int area[4];
+        int x0, y0, x1, y1;
         double ink, tolerance;
-        struct {
-            int x, y;
-            double coverage, tolerance;
-        } places[6];
-    } rows[] = {
-        {"a rectangle", {95, 45, 125, 65}, 205, 0.5, {{100, 55, 0.75, 0.01}, {110, 50, 0.5, 0.01}}},
-        {"a line",
-         {10, 25, 70, 35},
-         40,
-         0.05,
-         {{19, 30, 0, 0}, {60, 30, 0, 0}, {40, 29, 0, 0}, {40, 31, 0, 0}, {20, 30, 1, 0.01}, {59, 30, 1, 0.01}}},
-        {"a closed line",
-         {0, 70, 90, 130},
-         2 * 2 * (40 + 30) - 16,
-         1,
-         {{20, 80, 1, 0.02}, {59, 80, 1, 0.02}, {20, 109, 1, 0.02}, {59, 109, 1, 0.02}}},
-        {"a square on its corner", {140, 30, 190, 80}, 450, 9, {{160, 55, 1, 0}}},
-        {"a rectangle with round ends", {195, 30, 270, 80}, 60 * 20 - (4 - M_PI) * 100, 12, {{230, 50, 1, 0}}},
-        // Ends between two pixels cover their share of the last one, wherever on the screen and of however many points the line is.
-        {"an end between pixels", {18, 140, 63, 141}, 40, 0.05, {{20, 140, 0.75, 0.03}, {60, 140, 0.25, 0.03}}},
-        {"of three points", {18, 150, 63, 151}, 40, 0.05, {{20, 150, 0.75, 0.03}, {60, 150, 0.25, 0.03}}},
-        {"far to the right", {218, 140, 263, 141}, 40, 0.05, {{220, 140, 0.75, 0.03}, {260, 140, 0.25, 0.03}}},
-        {"there of three points", {218, 150, 263, 151}, 40, 0.05, {{220, 150, 0.75, 0.03}, {260, 150, 0.25, 0.03}}},
+    } areas[] = {
+        {"a rectangle", 95, 45, 125, 65, 205, 0.5},
+        {"a line", 10, 25, 70, 35, 40, 0.05},
+        {"a closed line", 0, 70, 90, 130, 2 * 2 * (40 + 30) - 16, 1},
+        {"a square on its corner", 140, 30, 190, 80, 450, 9},
+        {"a rectangle with round ends", 195, 30, 270, 80, 60 * 20 - (4 - M_PI) * 100, 12},
+        {"a line that ends between pixels", 18, 140, 63, 141, 40, 0.05},
+        {"one of three points", 18, 150, 63, 151, 40, 0.05},
+        {"one far to the right", 218, 140, 263, 141, 40, 0.05},
+        {"one of three points there", 218, 150, 263, 151, 40, 0.05},
+    };
+    static const struct {
+        int x, y;
+        double covered, tolerance;
+    } places[] = {
+        {100, 55, 0.75, 0.01},  {110, 50, 0.5, 0.01},                                               // the rectangle
+        {19, 30, 0, 0},         {60, 30, 0, 0},         {40, 29, 0, 0},         {40, 31, 0, 0},     // beside the line
+        {20, 30, 1, 0.01},      {40, 30, 1, 0.01},      {59, 30, 1, 0.01},                          // on it
+        {20, 80, 1, 0.01},      {59, 80, 1, 0.01},      {20, 109, 1, 0.01},     {59, 109, 1, 0.01}, // corners
+        {160, 55, 1, 0},        {20, 140, 0.75, 0.03},  {60, 140, 0.25, 0.03},  {20, 150, 0.75, 0.03},  // shares of
+        {60, 150, 0.25, 0.03},  {220, 140, 0.75, 0.03}, {260, 140, 0.25, 0.03}, {220, 150, 0.75, 0.03}, // the last
+        {260, 150, 0.25, 0.03},                                                                         // pixel
     };
     begin_black();
     RECT(100.25f, 50.5f, 20.5f, 10, WHITE);
@@ -132,20 +131,19 @@ TEST(shapes_cover_their_area)
     drawlist_rounded_line(&list, (struct rect){20, 80, 40, 30}, 0, 2, WHITE);
     CONVEX(WHITE, 160, 40, 175, 55, 160, 70, 145, 55);
     drawlist_rounded(&list, (struct rect){200, 40, 60, 20}, 10, WHITE);
-    for (int i = 0; i < 2; i++) {
-        const float x = i ? 220.25f : 20.25f;
+    for (float x = 20.25f; x < 230; x += 200) { // wherever on the screen
         LINE(1, WHITE, x, 140.5f, x + 40, 140.5f);
         LINE(1, WHITE, x, 150.5f, x + 15, 150.5f, x + 40, 150.5f);
     }
     show();
-    for (const struct row *row = rows; row < rows + sizeof rows / sizeof *rows; row++) {
-        const double found = ink(row->area[0], row->area[1], row->area[2], row->area[3]);
-        if (!(fabs(found - row->ink) <= row->tolerance)) fail_msg("%s: %g of ink", row->what, found);
-        for (int k = 0; k < 6 && row->places[k].x; k++) {
-            const double covered = coverage(row->places[k].x, row->places[k].y);
-            if (!(fabs(covered - row->places[k].coverage) <= row->places[k].tolerance))
-                fail_msg("%s: %g of pixel %d, %d", row->what, covered, row->places[k].x, row->places[k].y);
-        }
+    for (size_t i = 0; i < sizeof areas / sizeof *areas; i++) {
+        const double found = ink(areas[i].x0, areas[i].y0, areas[i].x1, areas[i].y1);
+        if (!(fabs(found - areas[i].ink) <= areas[i].tolerance)) fail_msg("%s: %g of ink", areas[i].what, found);
+    }
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const double covered = coverage(places[i].x, places[i].y);
+        if (!(fabs(covered - places[i].covered) <= places[i].tolerance))
+            fail_msg("%g of pixel %d, %d", covered, places[i].x, places[i].y);
     }
     for (int x = 20; x < 60; x++) assert_near(coverage(x, 40), (x - 20) % 10 < 6 ? 1 : 0, 0.01); // dashes
 }

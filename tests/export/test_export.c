@@ -46,6 +46,7 @@ EXPORT_TEST(gltf_moves_as_the_stage_does)
          1e-3},
         {"fox", 2, "a.glb", "tail", {.rate = 12}, 0.004, 1},
         {"fox", 2, "a.glb", "tail", {.rate = 12, .is_cubic = true}, 0, 1e-3},
+        {"fox", 2, "a.glb", "tail", {.has_frames = true, .first = 5, .last = 76, .is_cubic = true}, 0, 1e-3},
     };
     struct points points = {0};
     char fox[128];
@@ -357,7 +358,7 @@ struct bvh {
     struct {
         char name[64];
         int parent, channels;
-        double offset[3];
+        double offset[3], tip[3];
     } joints[MOST_JOINTS];
     int count, frames;
     double seconds; ///< a frame
@@ -370,23 +371,25 @@ static struct bvh read_bvh(const char *path)
     struct bvh bvh = {0};
     size_t size;
     int above[MOST_DEPTH] = {-1}, depth = 0, current = -1, used;
+    bool has_tip = false;
     char word[64], *at = bvh.data = bytes_of(path, &size);
     for (; sscanf(at, "%63s%n", word, &used) == 1 && strcmp(word, "MOTION") != 0;) {
         at += used;
         if (strcmp(word, "ROOT") == 0 || strcmp(word, "JOINT") == 0) {
             assert_true(bvh.count < MOST_JOINTS);
             current = bvh.count++;
+            has_tip = false;
             bvh.joints[current].parent = depth == 0 ? -1 : above[depth];
             assert_int_equal(sscanf(at, "%63s", bvh.joints[current].name), 1);
         } else if (strcmp(word, "End") == 0) {
-            current = -1;
+            has_tip = true;
         } else if (strcmp(word, "{") == 0) {
             assert_true(depth + 1 < MOST_DEPTH);
             above[++depth] = current;
         } else if (strcmp(word, "}") == 0) {
             depth--;
         } else if (strcmp(word, "OFFSET") == 0 && current >= 0) {
-            double *o = bvh.joints[current].offset;
+            double *o = has_tip ? bvh.joints[current].tip : bvh.joints[current].offset;
             assert_int_equal(sscanf(at, "%lf %lf %lf", &o[0], &o[1], &o[2]), 3);
         } else if (strcmp(word, "CHANNELS") == 0) {
             bvh.joints[current].channels = atoi(at);
@@ -433,6 +436,21 @@ EXPORT_TEST(a_character_keeps_the_size_and_place_of_its_file)
         assert_int_equal(bvh.count, gltf.skins[0].joint_count);
         assert_int_equal(bvh.frames, 97);
         assert_near(bvh.seconds, 1 / 24.0, 1e-9);
+        const struct imported *dog = models_imported(scene.models, scene.document, 0);
+        int placed = 0; // joints that move in their parents: the root does
+        for (int j = 0; j < bvh.count; j++) placed += bvh.joints[j].channels == 6;
+        assert_int_equal(placed, 1);
+        for (int i = 0; i < dog->skeleton.count && !shown; i++) { // a bone at the end of its limb has a tip
+            const struct bone *bone = &dog->skeleton.bones[i];
+            float ends[2][3];
+            int j = 0;
+            if (bone->child >= 0) continue;
+            while (j < bvh.count && strcmp(bvh.joints[j].name, dog->gltf.nodes[bone->node].name) != 0) j++;
+            assert_true(j < bvh.count);
+            if (j + 1 < bvh.count && bvh.joints[j + 1].parent == j) continue;
+            skeleton_ends(bone, &dog->rest, ends);
+            for (int k = 0; k < 3; k++) assert_near(bvh.joints[j].tip[k], ends[1][k] - ends[0][k], 1e-6);
+        }
         for (int f = 0; f < bvh.frames; f++) {
             gltf_pose_clip(&gltf, 0, f / 24.0, &pose);
             gltf_pose_world(&gltf, &pose);

@@ -443,21 +443,28 @@ EXPORT_TEST(usd_has_each_material)
         "startTimeCode = 0\n    endTimeCode = 24\n    timeCodesPerSecond = 24\n",
         "def SkelRoot \"_1_a_b\" (\n        displayName = \"1 a-b\"",
         "def Material \"glass\"\n",
+        "def Shader \"surface\"\n                {\n                    uniform token info:id = "
+        "\"UsdPreviewSurface\"\n",
         "inputs:diffuseColor = (0.5, 0.25, 1)",
         "inputs:opacity = 0.5\n",
         "def Material \"leaf\"\n",
         "inputs:diffuseColor.connect = </scene/_1_a_b/materials/leaf/texture.outputs:rgb>",
         "inputs:opacity.connect = </scene/_1_a_b/materials/leaf/texture.outputs:a>",
         "inputs:opacityThreshold = 0.25\n",
+        "def Shader \"texture\"\n                {\n                    uniform token info:id = \"UsdUVTexture\"\n",
         "asset inputs:file = @./m_textures/leaf_0.png@",
         "inputs:scale = (1, 0.5, 1, 1)",
         "inputs:wrapS = \"clamp\"\n",
         "inputs:wrapT = \"mirror\"\n",
+        "def Shader \"st\"\n                {\n                    uniform token info:id = "
+        "\"UsdPrimvarReader_float2\"\n",
         "def Material \"metal_plate\" (\n                displayName = \"metal.plate\"",
         "inputs:metallic = 0.75\n",
         "inputs:roughness = 0.125\n",
         "def Material \"painted\"\n",
         "inputs:diffuseColor.connect = </scene/_1_a_b/materials/painted/color.outputs:result>",
+        "def Shader \"color\"\n                {\n                    uniform token info:id = "
+        "\"UsdPrimvarReader_float3\"\n",
         "string inputs:varname = \"displayColor\"",
         "def Mesh \"sheet\"",
         "uniform bool doubleSided = 1",
@@ -535,7 +542,7 @@ EXPORT_TEST(usd_tells_joints_of_one_name_apart)
 }
 
 /// Where the textures cannot be written, nothing is: neither the file nor a part of them. And a picture that cannot take its place in the end:
-/// that is said, and neither it nor its folder stays.
+/// that is said, and neither it nor those before it nor their folder stays.
 EXPORT_TEST(without_its_textures_nothing_is_written)
 {
     struct export_report report;
@@ -547,6 +554,7 @@ EXPORT_TEST(without_its_textures_nothing_is_written)
                    "dog_textures");
     assert_int_equal(files_in_folder(), 1);
     snprintf(textures, sizeof textures, "%s", folder_path("textures"));
+    assert_done(sidecars_add(&sidecars, textures, "b.png", "picture", 7, &error));
     assert_done(sidecars_add(&sidecars, textures, "a.png", "picture", 7, &error));
     assert_int_equal(mkdir(folder_path("textures/a.png"), 0777), 0);
     assert_refusal(sidecars_commit(&sidecars, &error), "a.png");
