@@ -256,6 +256,16 @@ TEST(regions_hold_what_they_name)
             fail_msg("%s: %d nodes, %d of them low", rows[row].where, b.soft.pinned, low);
         box_close(&b);
     }
+    static const char *const refused[][2] = {
+        {"sphere:9,9,9,0.1", "box: the region of --pin holds nothing: it is off"},
+        {"2", "box: nothing can move: all of it is in the region of --pin"}};
+    for (int i = 0; i < 2; i++) {
+        struct box b;
+        box_open(&b, 0.5f, 1, 300);
+        assert_true(region_parse(refused[i][0], &b.options.pin));
+        assert_refusal(soft_create(&b.soft, &b.surface, "box", &b.options, &error), refused[i][1]);
+        box_close(&b);
+    }
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         struct region region;
         if (region_parse(wrong[i], &region)) fail_msg("\"%s\" is a region", wrong[i]);

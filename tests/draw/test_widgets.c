@@ -25,7 +25,7 @@ struct panel {
 };
 
 static const struct ui_number speed_number = {.name = "speed",
-                                              .label = "speed",
+                                              .label = "pace",
                                               .unit = "Hz",
                                               .minimum = 0,
                                               .maximum = 12,
@@ -311,7 +311,7 @@ TEST(the_keyboard_goes_round)
         {NULL, "Alt+Left", "used 0"},
         {NULL, "4", "used 1"},
         {NULL, "type ,5; Enter", "speed 0.5"}, // the comma of a keypad
-        {NULL, "type 1,000.5; Enter", "speed 0.5; says speed: expected a number, got “1,000.5”"},
+        {NULL, "type 1,000.5; Enter", "speed 0.5; says pace: expected a number, got “1,000.5”"},
         {NULL, "Escape; type 4.2; Tab", "speed 4.2; focus offset"},
         {"typing takes all keys but chords and F keys", "twice speed; release; V", "used 1"},
         {NULL, "Space", "used 1"},
@@ -361,7 +361,8 @@ TEST(lists_are_picked_from_and_rows_dragged)
         {"the wheel scrolls the list alone", "press kind.7; wheel -5 item.3", "sees item.15; used 1"},
         {NULL, "wheel -5 1010 5", "sees item.15; used 1; speed 1"}, // not over the list
         {"a click is no drag", "click row.0", "dropped -1"},
-        {NULL, "press row.0; by 0 50", "dragged 1"},
+        {NULL, "press row.0; by 0 2", "dragged 0"},
+        {NULL, "by 0 50", "dragged 1"},
         {NULL, "release", "dropped 0"},
         {"Escape ends a drag", "press row.1; by 0 66; Escape; release", "dropped -1"},
         {"a line is edited in place", "twice row.0; type new name; Enter", "typed new name"},
@@ -417,7 +418,7 @@ TEST(typing_takes_numbers_with_unit)
         act(&p, walk_name = walk_acts = typing);
         act(&p, "Enter");
         expect(&p, is_good ? "sets 1; typing 0" : "sets 0; typing 1");
-        if (!is_good && !strstr(p.ui.complaint, "speed: expected")) fail_msg("%s: no reason is given", typing);
+        if (!is_good && !strstr(p.ui.complaint, "pace: expected")) fail_msg("%s: no reason is given", typing);
         if (!is_good) act(&p, "Escape"); // or it is to be put right
         if (p.speed != (is_good ? rows[i].value : 7)) fail_msg("%s gives %g", typing, p.speed);
         expect(&p, "typing 0");

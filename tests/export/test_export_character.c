@@ -515,30 +515,46 @@ EXPORT_TEST(usd_has_each_material)
 
 static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
 
-/// Prims may not share a name, however many joints of a file do.
-EXPORT_TEST(usd_tells_joints_of_one_name_apart)
+/// Exports a skeleton whose root has the other bones below it, and reads its joints' paths.
+static void export_bones(const char *const *bones, int count, char joints[][256])
 {
-    enum { MANY = 3000 };
-    static char names[MANY + 1][256];
     size_t size;
-    json_t *joints = json_pack("[i]", 0), *below = json_array(),
-           *nodes = json_pack("[{s:s, s:O}]", "name", "b", "children", below);
-    for (int n = 1; n < MANY; n++) {
-        json_array_append_new(joints, json_integer(n));
-        json_array_append_new(below, json_integer(n));
-        json_array_append_new(nodes, json_pack("{s:s}", "name", "b"));
+    json_t *list = json_array(), *below = json_array(), *nodes = json_array();
+    for (int n = 0; n < count; n++) {
+        json_array_append_new(list, json_integer(n));
+        json_array_append_new(nodes, json_pack("{s:s}", "name", bones[n]));
+        if (n > 0) json_array_append_new(below, json_integer(n));
     }
+    json_object_set_new(json_array_get(nodes, 0), "children", below);
     json_t *json =
-        json_pack("{s:{s:s}, s:o, s:[{s:o}]}", "asset", "version", "2.0", "nodes", nodes, "skins", "joints", joints);
-    assert_int_equal(json_dump_file(json, folder_path("many.gltf"), 0), 0);
+        json_pack("{s:{s:s}, s:o, s:[{s:o}]}", "asset", "version", "2.0", "nodes", nodes, "skins", "joints", list);
+    assert_int_equal(json_dump_file(json, folder_path("bones.gltf"), 0), 0);
     json_decref(json);
-    json_decref(below);
-    export_made("{'type': 'model', 'model': 'many.gltf'}", "many.usda");
-    char *text = bytes_of(folder_path("many.usda"), &size);
-    assert_int_equal(read_names(text, "joints = ", names, MANY + 1), MANY);
+    export_made("{'type': 'model', 'model': 'bones.gltf'}", "bones.usda");
+    char *text = bytes_of(folder_path("bones.usda"), &size);
+    assert_int_equal(read_names(text, "joints = ", joints, count + 1), count);
+    free(text);
+}
+
+/// Prims are called by identifiers, in any script, and may not share a name, however many joints of a file do.
+EXPORT_TEST(usd_names_joints)
+{
+    enum { MANY = 3000, ODD = 9 };
+    static const char *const odd[ODD][2] = {
+        {"b", "b"},           {"up.-re", "b/up_minus_re"}, {"1a", "b/_1a"},         {"-x", "b/_minus_x"},
+        {"a b-c", "b/a_b_c"}, {"尻尾0", "b/尻尾0"},        {"\u0663", "b/_\u0663"}, {"×é", "b/__é"},
+        {"хвост", "b/хвост"},
+    };
+    static char names[MANY + 1][256];
+    static const char *bones[MANY];
+    for (int n = 0; n < ODD; n++) bones[n] = odd[n][0];
+    export_bones(bones, ODD, names);
+    for (int n = 0; n < ODD; n++)
+        if (strcmp(names[n], odd[n][1]) != 0) fail_msg("%s is called %s", odd[n][0], names[n]);
+    for (int n = 0; n < MANY; n++) bones[n] = "b";
+    export_bones(bones, MANY, names);
     qsort(names, MANY, sizeof *names, compare_names);
     for (int n = 1; n < MANY; n++) assert_string_not_equal(names[n - 1], names[n]);
-    free(text);
 }
 
 /// Where the textures cannot be written, nothing is: neither the file nor a part of them. And a picture that cannot take its place in the end:
