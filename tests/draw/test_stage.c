@@ -32,7 +32,7 @@ static void arrange(double side)
     static struct channel channel;
     struct tail made = {.joints = JOINTS,
                         .length = 1.6,
-                        .position = {{0, -1}, {FOX_BASE_HEIGHT, -1}, {0, -1}},
+                        .position = {param_number(0), param_number(FOX_BASE_HEIGHT), param_number(0)},
                         .channels = &channel,
                         .channel_count = 1};
     float lo[3], hi[3];

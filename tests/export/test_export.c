@@ -246,7 +246,7 @@ EXPORT_TEST(a_table_has_splines_and_channels)
     snprintf(expected, sizeof expected, "30,%.9g", sway.y + sway.re);
     assert_int_equal(strncmp(line, expected, 9), 0);
     char *at = line;
-    for (int i = 0; i < 6; i++) number[i] = strtod(at, &at) + 0 * *at++;
+    for (int i = 0; i < 6; i++, at++) number[i] = strtod(at, &at);
     assert_near(number[2], up.y + up.re, 1e-12);
     assert_near(number[5], tail->channels[0].gain.value[0] * (sway.y + sway.re), 1e-9);
     assert_int_equal(fclose(file), 0);
