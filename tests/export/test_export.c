@@ -208,14 +208,18 @@ EXPORT_TEST(reports_say_what_was_written)
          {.rate = 18, .has_frames = true, .last = 22},
          "58 columns, 17 rows, ",
          "the last key is on frame 21.3333, because no key falls on frame 22"},
-        {"tail", "a.pc2", {.substeps = 1}, "6866 vertices, 121 frames, 10.0 MB", ""},
+        {"tail", "a.pc2", {.substeps = 1, .has_frames = true, .last = 4}, "6866 vertices, 5 frames, 412 KB", ""},
         {"tail", "a.bvh", {.substeps = 1}, "24 joints, 121 frames, ", ""},
-        {"tail", "a.usda", {.substeps = 1}, "1 rig, 121 keys, ", ""},
-        {"compositing", "a.usda", {.substeps = 1}, "2 rigs, 97 keys, ", ""},
+        {"tail", "a.usda", {.rate = 6}, "1 rig, 31 keys, ", ""},
+        {"compositing", "a.usda", {.substeps = 1, .has_frames = true}, "2 rigs, 1 keys, ", ""},
         {"character", "a.glb", {.substeps = 1}, "8 morph targets, 145 keys, ", ""},
         {"dog", "a.glb", {.substeps = 1}, "16 bones bent by chains in 1 clip, 97 keys, ", ""},
         {"dog", "a.glb", {.substeps = 1, .all_clips = true}, "16 bones bent by chains in 3 clips, 233 keys, ", ""},
-        {"dog", "a.usda", {.substeps = 1}, "1 rig, 97 keys, 1 texture in a_textures, ", ""},
+        {"dog",
+         "a.usda",
+         {.substeps = 1, .has_frames = true, .last = 4},
+         "1 rig, 5 keys, 1 texture in a_textures, ",
+         ""},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct export_report report = {0};
