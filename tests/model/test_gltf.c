@@ -1,8 +1,10 @@
-/// glTF characters as other programs write them: containers, every kind of accessor, primitives, materials, images, scenes.
+/// glTF characters as other programs write them: containers, every kind of accessor, primitives, materials, images, scenes; and their poses:
+/// every interpolation against numbers made by hand, skins and morph targets against the textbook.
 #include "base/file.h"
 #include "base/png.h"
 #include "gltf_facts.h"
 #include "model/surface.h"
+#include "model/vector.h"
 
 #define ONE_NODE "'nodes':[{'mesh':0}]"
 #define MESH(attributes) "'meshes':[{'primitives':[{'attributes':{" attributes "}}]}]," ONE_NODE
@@ -15,7 +17,7 @@
 /// Accessor 0 is a triangle, 1 its normals, 2 five corners, 3 their numbers, 4 a strip that jumps, 5 triangles without area, 6 four corners, 7
 /// two triangles of these, 8 colours; 9 and 10 have a stride and an offset, 11 to 13 are sparse; 14 to 17 are influences, 18 to 26 one list in
 /// every type, 27 and 28 a move.
-static void add_all(struct builder *b)
+static void add_meshes(struct builder *b)
 {
     const float strides[3][7] = {{9, 1, 2, 3, 0.5f, 0.25f, 9}, {9, 4, 5, 6, 1, 0, 9}, {9, 7, 8, 10, 0, 1, 9}},
                 triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, by[] = {0.5f, 3, -1};
@@ -59,43 +61,40 @@ static void add_all(struct builder *b)
     assert_int_equal(ADD(b, FLOAT, float, 3, 0, 0, 0, 4, 5, 6), 28);
 }
 
-static const struct gltf_row rows[] = {
-    {UV("18"), "uv -128 127 0 1 -127 64", NULL},
-    {UV("19"), "uv -1 1 0 0.007874015748 -1 0.503937007874", NULL},
-    {UV("20"), "uv 255 0 51 1 2 3", NULL},
-    {UV("21"), "uv 1 0 0.2 0.00392156862745 0.0078431372549 0.0117647058824", NULL},
-    {UV("22"), "uv -32768 32767 0 1 -5 7", NULL},
-    {UV("23"), "uv -1 1 0 0.0000305185094760 -0.000152592547380 0.000213629566332", NULL},
-    {UV("24"), "uv 65535 0 13107 1 2 3", NULL},
-    {UV("25"), "uv 1 0 0.2 0.0000152590218967 0.0000305180437934 0.0000457770656902", NULL},
-    {UV("26"), "uv 4000000000 0 1 2 3 4", NULL},
+static const struct gltf_row files[] = {
+    {UV("18"), "uv -128 127 0 1 -127 64"},
+    {UV("19"), "uv -1 1 0 0.007874015748 -1 0.503937007874"},
+    {UV("20"), "uv 255 0 51 1 2 3"},
+    {UV("21"), "uv 1 0 0.2 0.00392156862745 0.0078431372549 0.0117647058824"},
+    {UV("22"), "uv -32768 32767 0 1 -5 7"},
+    {UV("23"), "uv -1 1 0 0.0000305185094760 -0.000152592547380 0.000213629566332"},
+    {UV("24"), "uv 65535 0 13107 1 2 3"},
+    {UV("25"), "uv 1 0 0.2 0.0000152590218967 0.0000305180437934 0.0000457770656902"},
+    {UV("26"), "uv 4000000000 0 1 2 3 4"},
     // positions and texture coordinates in turn in one view, with a gap, from a byte of their own
-    {MESH("'POSITION':9,'TEXCOORD_0':10"), "position 1 2 3 4 5 6 7 8 10 uv 0.5 0.25 1 0 0 1 lo 1 2 3 hi 7 8 10",
-     NULL},
+    {MESH("'POSITION':9,'TEXCOORD_0':10"), "position 1 2 3 4 5 6 7 8 10 uv 0.5 0.25 1 0 0 1 lo 1 2 3 hi 7 8 10"},
     // sparse: changes to a view, and to zeros where there is no view
     {"'meshes':[{'primitives':[{'attributes':{'POSITION':11},'targets':[{'POSITION':12},{'POSITION':13}]}]}]"
      "," ONE_NODE,
-     "targets 2 position 0 0 0 1 0 0 0.5 3 -1 moves 0 0 0 0 0 0 0.5 3 -1 target 1 moves 0 0 0 0 0 0 0 0 0", NULL},
+     "targets 2 position 0 0 0 1 0 0 0.5 3 -1 moves 0 0 0 0 0 0 0.5 3 -1 target 1 moves 0 0 0 0 0 0 0 0 0"},
     // triangles (the two corners left over are dropped), strip and fan of five corners, which stay shared as they have normals
     {"'meshes':[{'primitives':[" PRIMITIVE("0") "," PRIMITIVE("1") "," PRIMITIVE("3") "," PRIMITIVE(
          "4") "," PRIMITIVE("5") "," PRIMITIVE("6") "]}]," ONE_NODE,
-     "parts 3 indices 0 1 2 part 1 indices 0 1 2 1 3 2 2 3 4 part 2 indices 1 2 0 2 3 0 3 4 0", "points, lines"},
+     "parts 3 indices 0 1 2 part 1 indices 0 1 2 1 3 2 2 3 4 part 2 indices 1 2 0 2 3 0 3 4 0 | points, lines"},
     // strips jump by triangles that name a vertex twice, which no reader keeps; a primitive of nothing else is not there
     {"'meshes':[{'primitives':[" REPEATS("", "5", "4") "," REPEATS(",'NORMAL':2", "4",
                                                                    "5") "," REPEATS("", "4", "5") "]}]," ONE_NODE,
-     "parts 2 indices 0 1 2 2 3 1", "triangles without area"},
+     "parts 2 indices 0 1 2 2 3 1 | triangles without area"},
     // without normals a part keeps its vertices, and is drawn flat; one without the mesh's targets stays; weights at rest count
     {"'meshes':[{'primitives':[{'attributes':{'POSITION':6,'COLOR_0':8},'indices':7,'targets':[{'POSITION':6}]},"
      "{'attributes':{'POSITION':6}}],'weights':[0.5]}]," ONE_NODE,
      "targets 1 normal position 0 0 0 1 0 0 0 1 0 0 0 1 moves 0 0 0 1 0 0 0 1 0 0 0 1 indices 0 1 2 0 3 1 "
-     "color 1 0 0 1 0 1 0 1 0 0 1 1 0 0 0 0.2 hi 1.5 1.5 1.5 part 1 moves",
-     NULL},
+     "color 1 0 0 1 0 1 0 1 0 0 1 1 0 0 0 0.2 hi 1.5 1.5 1.5 part 1 moves"},
     // eight influences: the first vertex' sum was 2; without weights it follows the first joint; a joint without weight says nothing
     {"'skins':[{'joints':[1,2,3,4,5,6,7,8]}],'nodes':[{'mesh':0,'skin':0},{},{},{},{},{},{},{},{}],'meshes':[{"
      "'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':14,'WEIGHTS_0':15,'JOINTS_1':16,'WEIGHTS_1':17}}]}]",
      "joints 0 1 2 3 4 5 6 7 3 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0 weights ~0.1 ~0.1 ~0.1 ~0.1 ~0.1 ~0.1 ~0.1 ~0.3 "
-     "1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0",
-     NULL},
+     "1 0 0 0 0 0 0 0 1 0 0 0 0 0 0 0"},
     // a matrix is a move, a turn and a scale, which clips can change; one that is sheared or flat stays, and does not move
     {"'nodes':[{'matrix':[0,3,0,0,-2,0,0,0,0,0,1,0,5,0,7,1]},{'matrix':[-1,0,0,0,0,1,0,0,0,0,4,0,-1,2,0,1]},"
      "{'matrix':[1,0,0,0,1,1,0,0,0,0,1,0,4,5,6,1]},{'matrix':[1,0,0,0,0,0,0,0,0,0,1,0,1,2,3,1]}],'animations':[{"
@@ -103,28 +102,26 @@ static const struct gltf_row rows[] = {
          "3") "]}]",
      "sheared 0 axes ~0 ~3 ~0 ~-2 ~0 ~0 ~0 ~0 ~1 place 5 0 7 node 1 sheared 0 axes ~-1 ~0 ~0 ~0 ~1 ~0 ~0 ~0 ~4 "
      "place -1 2 0 node 2 sheared 1 node 3 sheared 1 place 1 2 3 clip 0 at 1 node 0 place 4 5 6 node 1 place 4 5 6 "
-     "node 2 place 4 5 6 node 3 place 1 2 3",
-     "clips of nodes with sheared matrices"},
+     "node 2 place 4 5 6 node 3 place 1 2 3 | clips of nodes with sheared matrices"},
     // children before parents; what the scene leaves out has no mesh: (1, 0, 0) → (2, 0, 0) → (0, 2, 0) + (5, 0, 0) + (0, 0, 7)
     {"'meshes':[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1}}]}],'cameras':[{}],'scene':1,'scenes':[{"
      "'nodes':[3]},{'nodes':[2]}],'nodes':[{'mesh':0,'scale':[2,2,2]},{'children':[0],"
      "'matrix':[0,1,0,0,-1,0,0,0,0,0,1,0,5,0,0,1]},{'children':[1],'translation':[0,0,7]},{'mesh':0}]",
      "parent 1 posed 5 0 7 ~5 ~2 ~7 ~3 ~0 ~7 turned ~0 ~0 ~1 ~0 ~0 ~1 ~0 ~0 ~1 lo ~3 ~0 ~7 node 1 sheared 0 "
-     "node 3 mesh -1",
-     "cameras, other scenes"},
+     "node 3 mesh -1 | cameras, other scenes"},
 };
 
 TEST(files_are_read)
 {
     struct builder b = {0};
-    add_all(&b);
-    assert_rows(&b, rows, sizeof rows / sizeof *rows);
+    add_meshes(&b);
+    assert_rows(&b, files, sizeof files / sizeof *files);
 }
 
 /// A surface has the meshes of all nodes, whatever nodes without one stand between them, and is none where no triangle has an area.
 GLTF_TEST(a_surface_has_the_meshes_of_all_nodes)
 {
-    add_all(b);
+    add_meshes(b);
     struct surface surface;
     const char *path =
         write_built(b, "nodes.gltf",
@@ -158,7 +155,8 @@ GLTF_TEST(materials_and_images)
     assert_done(file_read(temporary_path("a b.png"), 1000, &png, &png_size, &error));
     assert_int_equal(add_view(b, png, png_size, 0), 2);
     free(png);
-#define TEXTURE(index) "'pbrMetallicRoughness':{'baseColorTexture':{'index':" index "}}"
+#define TEXTURE(index) "{'pbrMetallicRoughness':{'baseColorTexture':{'index':" index "}}"
+#define SECOND_SET "{'attributes':{'POSITION':0,'TEXCOORD_1':1}"
     read_built(
         b,
         "'images':[{'bufferView':2,'mimeType':'image/png'},{'uri':'data:image/jpeg;base64," GREY_JPEG
@@ -168,39 +166,42 @@ GLTF_TEST(materials_and_images)
         "{'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'baseColorFactor':[0.5,0.25,1,0.75]},"
         "'alphaMode':'BLEND','doubleSided':true},"
         "{'pbrMetallicRoughness':{'baseColorTexture':{'index':1,'texCoord':3,'extensions':{'KHR_texture_transform':{"
-        "'offset':[0.5,0.25],'rotation':1.5707963267948966,'scale':[2,4],'texCoord':1}}}},'alphaMode':'MASK'},"
-        "{" TEXTURE("2") ",'alphaMode':'MASK','alphaCutoff':0.25},{" TEXTURE("3") "},{" TEXTURE(
-            "4") ",'normalTexture':{'index':0}},{" TEXTURE("3") "},{" TEXTURE("5") "}],"
-                                                                                   "'meshes':[{'primitives':[{"
-                                                                                   "'attributes':{'POSITION':0,"
-                                                                                   "'TEXCOORD_1':1},'material':1},"
-                                                                                   "{'attributes':{'POSITION':0,"
-                                                                                   "'TEXCOORD_1':1}}]}]," ONE_NODE);
+        "'offset':[0.5,0.25],'rotation':1.5707963267948966,'scale':[2,4],'texCoord':1}}}},'alphaMode':'MASK'}"
+        "," TEXTURE("2") ",'alphaMode':'MASK','alphaCutoff':0.25}," TEXTURE("3") "}," TEXTURE(
+            "4") ",'normalTexture':{'index':0}}," TEXTURE("3") "}," TEXTURE("5") "}],"
+                                                                                 "'meshes':[{'primitives':"
+                                                                                 "[" SECOND_SET
+                                                                                 ",'material':1}," SECOND_SET
+                                                                                 "}]}]," ONE_NODE);
     // the second material's: scale, then a quarter turn, then the offset: (1, 0) → (2, 0) → (0, −2) → (0.5, −1.75)
     assert_facts(&b->gltf, "uv ~0.5 ~0.25 ~0.5 ~-1.75 ~4.5 ~0.25 part 1 uv"); // plain white has no second set
+    static const struct {
+        int image;
+        double cutoff;
+    } expected[] = {{0, 0}, {1, 0.5}, {2, 0.25}, {-1, 0}, {-1, 0}, {-1, 0}, {-1, 0}};
+    static const char *const shown[] = {"KHR_texture_transform", "unused"},
+                             *const hidden[] = {"KHR_materials_sheen, image none (expected PNG or JPEG",
+                                                "normal maps", "image ../missing.png ("};
+    const struct gltf_image *images = b->gltf.images;
+    const struct gltf_material *materials = b->gltf.materials;
     assert_int_equal(b->gltf.image_count, 3);
-    assert_int_equal(b->gltf.images[0].width, 16);
-    assert_in_range(b->gltf.images[0].pixels[4], 126, 130);
-    assert_int_equal(b->gltf.images[0].pixels[3], 255);
+    assert_int_equal(images[0].width, 16);
+    assert_in_range(images[0].pixels[4], 126, 130);
+    assert_int_equal(images[0].pixels[3], 255);
     for (int i = 1; i < 3; i++) {
-        assert_int_equal(b->gltf.images[i].width, 2);
-        assert_int_equal(b->gltf.images[i].height, 3);
-        assert_memory_equal(b->gltf.images[i].pixels, pixels, sizeof pixels);
+        assert_int_equal(10 * images[i].width + images[i].height, 23);
+        assert_memory_equal(images[i].pixels, pixels, sizeof pixels);
     }
-    const int image[] = {0, 1, 2, -1, -1, -1, -1};
-    for (int i = 0; i < 7; i++) assert_int_equal(b->gltf.materials[i].image, image[i]);
-    assert_near(b->gltf.materials[0].color[1], 0.25, 0);
-    assert_near(b->gltf.materials[0].color[3], 0.75, 0);
-    assert_true(b->gltf.materials[0].blended && b->gltf.materials[0].double_sided);
-    assert_near(b->gltf.materials[1].cutoff, 0.5, 0);
-    assert_near(b->gltf.materials[2].cutoff, 0.25, 0);
-    assert_near(b->gltf.materials[3].cutoff, 0, 0);
+    for (int i = 0; i < 7; i++) {
+        assert_int_equal(materials[i].image, expected[i].image);
+        assert_near(materials[i].cutoff, expected[i].cutoff, 0);
+        assert_int_equal(materials[i].blended, i == 0);
+        assert_int_equal(materials[i].double_sided, i == 0);
+    }
+    assert_memory_equal(materials[0].color, ((const float[]){0.5f, 0.25f, 1, 0.75f}), sizeof materials[0].color);
     assert_int_equal(b->gltf.meshes[0].parts[1].material, -1);
-    assert_non_null(strstr(b->gltf.not_shown, "KHR_materials_sheen, image none (expected PNG or JPEG"));
-    assert_non_null(strstr(b->gltf.not_shown, "normal maps"));
-    assert_non_null(strstr(b->gltf.not_shown, "image ../missing.png ("));
-    assert_null(strstr(b->gltf.not_shown, "KHR_texture_transform"));
-    assert_null(strstr(b->gltf.not_shown, "unused"));
+    for (int i = 0; i < 3; i++) assert_non_null(strstr(b->gltf.not_shown, hidden[i]));
+    for (int i = 0; i < 2; i++) assert_null(strstr(b->gltf.not_shown, shown[i]));
     assert_null(strstr(strstr(b->gltf.not_shown, "image none") + 1, "image none")); // once
 }
 
@@ -258,7 +259,7 @@ GLTF_TEST(names_of_targets)
         {"'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':0,'extra':{'name':'Blink'}},"
          "{'POSITION':0,'extras':{'name':'Joy'}}]}]",
          "Joy"},
-        {NAMES("'Blink'", "7") ",'primitives':[{" TARGETS "}]", NULL},
+        {NAMES("'Blink'", "7") ",'primitives':[{" TARGETS "}]", "none"},
     };
     ADD(b, FLOAT, float, 3, 0, 0, 0, 1, 0, 0, 0, 1, 0);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -268,6 +269,153 @@ GLTF_TEST(names_of_targets)
         read_built(b, all);
         const char *second = gltf_target_name(b->gltf.meshes, 1);
         assert_string_equal(gltf_target_name(b->gltf.meshes, 0), "Blink");
-        assert_string_equal(second ? second : "none", cases[i].second ? cases[i].second : "none");
+        assert_string_equal(second ? second : "none", cases[i].second);
     }
+}
+
+// --- poses
+
+#define CHANNEL(node, path, sampler) "{'sampler':" sampler ",'target':{'node':" node ",'path':'" path "'}}"
+#define CUBIC(output) "{'input':4,'output':" output ",'interpolation':'CUBICSPLINE'}"
+
+/// Accessors: 0 three times, 1 places; 2 three times, 3 turns by 0°, 120° as −q, and as q; 4 two times, 5 cubic places, 6 cubic turns; 7 a
+/// triangle, 8 and 9 moves of it, 10 normals, 11 times as normalised bytes, 12 weights as normalised shorts; 13 a slope, 14 its normals.
+static void add_clips(struct builder *b)
+{
+    ADD(b, FLOAT, float, 1, 1, 2, 4);
+    ADD(b, FLOAT, float, 3, 0, 10, 4, 2, 20, 4, 6, 0, 8);
+    ADD(b, FLOAT, float, 1, 0, 3, 4);
+    ADD(b, FLOAT, float, 4, 0, 0, 0, 1, 0, 0, -0.8660254037844386f, -0.5f, 0, 0, 0.8660254037844386f, 0.5f);
+    ADD(b, FLOAT, float, 1, 1, 3);
+    ADD(b, FLOAT, float, 3, 9, 9, 9, 1, 2, 3, 4, 0, -8, 8, 16, 0, 5, 6, 7, 9, 9, 9);
+    ADD(b, FLOAT, float, 4, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0.5f, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0);
+    ADD(b, FLOAT, float, 3, 0, 0, 0, 1, 0, 0, 0, 1, 0);
+    ADD(b, FLOAT, float, 3, 0, 0, 1, 0, 0, 2, 0, 0, 3);
+    ADD(b, FLOAT, float, 3, 1, 0, -1, 1, 0, -1, 1, 0, -1);
+    ADD(b, FLOAT, float, 3, 0, 0, 1, 0, 0, 1, 0, 0, 1);
+    ADD_NORMALISED(b, UBYTE, uint8_t, 1, 0, 255);
+    ADD_NORMALISED(b, SHORT, int16_t, 1, 0, 32767, 32767, -32767);
+    ADD(b, FLOAT, float, 3, 0, 0, 0, 1, 0, 1, 0, 1, 0);
+    assert_int_equal(ADD(b, FLOAT, float, 3, -1, 0, 1, -1, 0, 1, -1, 0, 1), 14);
+}
+
+static const struct gltf_row poses[] = {
+    {"'nodes':[{'translation':[7,8,9]}],'animations':[{'samplers':[{'input':0,'output':1},{'input':0,'output':1,"
+     "'interpolation':'STEP'}],'channels':[" CHANNEL("0", "translation", "0") "," CHANNEL("0", "scale", "1") "]}]",
+     "last 4 at 3 translation 7 8 9 clip 0 at -5 translation 0 10 4 scale 0 10 4 at 1 translation 0 10 4 scale 0 10 "
+     "4 "
+     "at 1.25 translation 0.5 12.5 4 scale 0 10 4 at 2 translation 2 20 4 scale 2 20 4 at 3 translation 4 10 6 "
+     "scale 2 20 4 at 3.875 translation 5.75 1.25 7.75 scale 2 20 4 at 4 translation 6 0 8 scale 6 0 8 "
+     "at 1000000000 translation 6 0 8 scale 6 0 8"},
+    // the short way is a third of 120° at a third of the time; between keys of the same rotation with other signs nothing moves
+    {"'nodes':[{}],'animations':[{'samplers':[{'input':2,'output':3,'interpolation':'LINEAR'}],"
+     "'channels':[" CHANNEL("0", "rotation", "0") "]}]",
+     "clip 0 at 1 rotation ~0 ~0 ~0.342020143326 ~0.939692620786 "
+     "at 3.5 axes ~-0.5 ~0.866025403784 ~0 ~-0.866025403784 ~-0.5 ~0 ~0 ~0 ~1"},
+    // the spline of glTF's appendix at a quarter of two seconds: s = 1/4 has the weights 27/32, 9/64, 5/32 and −3/64
+    {"'nodes':[{}],'animations':[{'samplers':[" CUBIC("5") "," CUBIC("6") "],'channels':[" CHANNEL(
+         "0", "translation", "0") "," CHANNEL("0", "rotation", "1") "]}]",
+     "clip 0 at 1.5 translation ~2 ~1.125 ~1.375 rotation ~0 ~0 ~0.331906211591 ~0.943312390837 "
+     "at 9 translation 5 6 7 at 0 translation 1 2 3"},
+    // two nodes show one mesh: weights at rest are the mesh's and the second node's own, and a clip moves the second's
+    {"'meshes':[{'weights':[0.5,0],'primitives':[{'attributes':{'POSITION':7,'NORMAL':10},'targets':[{'POSITION':8},{"
+     "'POSITION':8,'NORMAL':9}]}]}],'nodes':[{'mesh':0},{'mesh':0,'weights':[0,1],'translation':[10,0,0]}],"
+     "'animations':[{'samplers':[{'input':11,'output':12}],'channels':[" CHANNEL("1", "weights", "0") "]}]",
+     "morphs 0.5 0 0 1 posed ~0 ~0 ~0.5 ~1 ~0 ~1 ~0 ~1 ~1.5 node 1 posed ~10 ~0 ~1 ~11 ~0 ~2 ~10 ~1 ~3 "
+     "turned ~1 ~0 ~0 ~1 ~0 ~0 ~1 ~0 ~0 clip 0 at 0.25 morphs 0.5 0 ~0.25 ~0.5 "
+     "posed ~10 ~0 ~0.75 ~11 ~0 ~1.5 ~10 ~1 ~2.25 at 0.75 morphs 0.5 0 ~0.75 ~-0.5 "
+     "posed ~10 ~0 ~0.25 ~11 ~0 ~0.5 ~10 ~1 ~0.75"},
+    // mirrored and stretched: normals stay across the surface, and look to where they did
+    {"'meshes':[{'primitives':[{'attributes':{'POSITION':13,'NORMAL':14}}]}],'nodes':[{'mesh':0,'scale':[-3,1,1]}]",
+     "posed ~0 ~0 ~0 ~-3 ~0 ~1 ~0 ~1 ~0 turned ~0.316227766017 ~0 ~0.948683298051 ~0.316227766017 ~0 ~0.948683298051 "
+     "~0.316227766017 ~0 ~0.948683298051"},
+};
+
+TEST(poses_are_those_of_the_textbook)
+{
+    struct builder b = {0};
+    add_clips(&b);
+    assert_rows(&b, poses, sizeof poses / sizeof *poses);
+}
+
+enum { BONES = 8 };
+
+/// Bone n of a straight tail along z, a unit long each, is rolled by n radians about its own direction, and in the clip turned about the
+/// world's y, which each sees another way. Accessor n + 1 is its key: parent⁻¹ · turn · own. It carries the vertex at its own end.
+static void read_tail(float angle, struct gltf *gltf)
+{
+    char members[4096], *at = members, channels[1024] = "", samplers[512] = "";
+    float ends[BONES][3] = {{0}}, inverse[BONES][16], weights[BONES][4] = {{0}};
+    uint8_t joints[BONES][4] = {{0}};
+    struct builder b = {0};
+    versor about, own, back, turned;
+    vec3 y = {0, 1, 0}, z = {0, 0, 1};
+    glm_quatv(about, angle, y);
+    ADD(&b, FLOAT, float, 1, 0);
+    at += sprintf(at, "'nodes':[{'mesh':0,'skin':0,'translation':[3,3,3]}");
+    for (int n = 0; n < BONES; n++) {
+        mat4 bind = GLM_MAT4_IDENTITY_INIT;
+        glm_quatv(own, (float)n, z);
+        glm_quatv(back, n > 0 ? (float)(1 - n) : 0, z);
+        glm_quat_mul(about, own, turned);
+        glm_quat_mul(back, turned, turned);
+        glm_quat_mul(back, own, own);
+        add_data(&b, FLOAT, "VEC4", 1, turned, sizeof turned);
+        at += sprintf(at, ",{'rotation':[%.9g,%.9g,%.9g,%.9g],'translation':[0,0,%d]", (double)own[0], (double)own[1],
+                      (double)own[2], (double)own[3], n > 0);
+        at += n < BONES - 1 ? sprintf(at, ",'children':[%d]}", n + 2) : sprintf(at, "}],");
+        sprintf(channels + strlen(channels), "%s{'sampler':%d,'target':{'node':%d,'path':'rotation'}}", n ? "," : "",
+                n, n + 1);
+        sprintf(samplers + strlen(samplers), "%s{'input':0,'output':%d}", n ? "," : "", n + 1);
+        glm_translate(bind, (vec3){0, 0, (float)n});
+        glm_rotate(bind, (float)n, z);
+        glm_mat4_inv(bind, bind);
+        memcpy(inverse[n], bind, sizeof bind);
+        ends[n][2] = (float)(n + 1);
+        joints[n][2] = (uint8_t)n;
+        weights[n][2] = 0.5f;
+    }
+    assert_int_equal(add_data(&b, FLOAT, "VEC3", BONES, ends, sizeof ends), 9);
+    add_data(&b, UBYTE, "VEC4", BONES, joints, sizeof joints);
+    add_data(&b, FLOAT, "VEC4", BONES, weights, sizeof weights);
+    add_data(&b, FLOAT, "MAT4", BONES, inverse, sizeof inverse);
+    sprintf(at,
+            "'meshes':[{'primitives':[{'attributes':{'POSITION':9,'NORMAL':9,'JOINTS_0':10,'WEIGHTS_0':11}}]}],"
+            "'skins':[{'joints':[1,2,3,4,5,6,7,8],'inverseBindMatrices':12}],'animations':[{'channels':[%s],"
+            "'samplers':[%s]}]",
+            channels, samplers);
+    read_built(&b, members);
+    *gltf = b.gltf;
+}
+
+/// The vertices lie on a circle's chords, in the plane y = 0.
+TEST(a_tail_with_rolls)
+{
+    const double angle = 0.2;
+    struct gltf gltf;
+    struct gltf_pose pose;
+    float moved[BONES][3], normals[BONES][3], matrix[16];
+    read_tail((float)angle, &gltf);
+    assert_true(gltf_pose_create(&gltf, &pose));
+    gltf_pose_vertices(&gltf, &pose, 0, moved, normals);
+    for (int i = 0; i < 3 * BONES; i++)
+        assert_near(moved[i / 3][i % 3], i % 3 == 2 ? i / 3 + 1 : 0, 2e-6); // not where node 0 is
+    gltf_pose_clip(&gltf, 0, 0, &pose);
+    gltf_pose_world(&gltf, &pose);
+    gltf_pose_vertices(&gltf, &pose, 0, moved, normals);
+    double end[2] = {0, 0};
+    for (int n = 0; n < BONES; n++) {
+        const double turned = (n + 1) * angle;
+        end[0] += sin(turned);
+        end[1] += cos(turned);
+        const double place[] = {end[0], 0, end[1]}, normal[] = {sin(turned), 0, cos(turned)};
+        for (int k = 0; k < 3; k++) {
+            assert_near(moved[n][k], place[k], 2e-6);
+            assert_near(normals[n][k], normal[k], 2e-6);
+        }
+        gltf_joint_matrix(&gltf, &pose, 0, n, matrix);
+        assert_memory_equal(matrix, pose.joints[n], sizeof matrix);
+    }
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
 }
