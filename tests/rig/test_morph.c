@@ -1,9 +1,10 @@
-/// Soft characters: equations 29 and 30, normals, the coarse mesh, phases as colours, and models that are not there.
-#include "documents.h"
+/// Soft characters: equations 29 and 30, normals, the coarse mesh, paint, phases as colours, the lowest points; and what is said of models that
+/// do not suit their scenes.
 #include "model/vector.h"
 #include "puppet.h"
-#include "rig/models.h"
-#include "rig/posing.h"
+#include "rig/import.h"
+#include "scene/edit.h"
+#include "scene/load.h"
 #include "temporary.h"
 #include "ui/theme.h"
 #include <complex.h>
@@ -35,7 +36,7 @@ TEST(positions_are_those_of_equation_30)
     struct morph morph;
     pose_character(&rig, &figure, x, LOOK_WIGGLY, &morph);
     assert_int_equal(morph.count, 2);
-    float lo[3] = {-9, -9, -9}, hi[3] = {9, 9, 9};
+    float lo[3], hi[3];
     double most[3] = {-INFINITY, -INFINITY, -INFINITY}, least[3] = {INFINITY, INFINITY, INFINITY};
     morph_bounds(&figure, &morph, lo, hi);
     for (int i = 0; i < figure.character.vertex_count; i++) {
@@ -241,59 +242,249 @@ TEST(the_phase_map_is_even_and_cyclic)
     assert_int_equal(still >> 24, still >> 8 & 0xFF);
 }
 
-static struct document *scene_with(const char *model)
+// --- paint
+
+/// Paint on a figure is e^{a + jψ} at each vertex; normals follow as if the model had been made so.
+TEST(paint_turns_and_scales_coordinates)
 {
-    char text[512];
-    snprintf(
-        text, sizeof text,
-        "{\"wiggly\": 1, \"frames\": [0, 9], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": [{\"type\": "
-        "\"character\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}, {\"name\": "
-        "\"z\", \"spline\": \"s\"}]}]}",
-        model);
-    return document_of_text(text);
+    struct character character = puppet_character(0.1f, 1), made = puppet_character(0.1f, 1);
+    const int vertices = character.vertex_count;
+    float(*paint)[2] = calloc((size_t)vertices, sizeof *paint);
+    for (int i = 0; i < vertices; i++) {
+        const float *p = character.position[i];
+        paint[i][0] = 0.4f * p[0];
+        paint[i][1] = p[1] > 0.5f ? p[1] - 0.5f : 0;
+        for (int k = 0; k < 3; k++) {
+            character.coordinates[0].re[i][k] = 0.2f * p[(k + 1) % 3];
+            character.coordinates[0].im[i][k] = -0.1f * p[k];
+        }
+        const float size = expf(paint[i][0]), c = size * cosf(paint[i][1]), s = size * sinf(paint[i][1]);
+        for (int k = 0; k < 3; k++) {
+            const float re = character.coordinates[0].re[i][k], im = character.coordinates[0].im[i][k];
+            made.coordinates[0].re[i][k] = c * re - s * im;
+            made.coordinates[0].im[i][k] = s * re + c * im;
+        }
+    }
+    struct figure plain = puppet_figure(&character), expected = puppet_figure(&made);
+    struct painted *painted = painted_create(&plain);
+    const struct morph morph = {1, {0}, {{0.7f, -0.6f}}};
+    assert_non_null(painted);
+    painted_update(painted, (const float(*)[2])paint);
+    for (int i = 0; i < vertices; i++) {
+        float p[3], n[3], q[3], m[3];
+        morph_vertex(&painted->figure, &morph, i, p, n);
+        morph_vertex(&expected, &morph, i, q, m);
+        for (int k = 0; k < 3; k++) {
+            assert_near((double)p[k], (double)q[k], 1e-5);
+            assert_near((double)n[k], (double)m[k], 1e-4);
+        }
+    }
+    painted_update(painted, NULL);
+    assert_memory_equal(painted->figure.character.coordinates[0].re, plain.character.coordinates[0].re,
+                        (size_t)vertices * sizeof(float[3]));
+    assert_memory_equal(painted->figure.slopes, plain.slopes, (size_t)vertices * sizeof *plain.slopes);
+    painted_destroy(painted);
+    figure_free(&plain);
+    figure_free(&expected);
+    free(paint);
 }
 
-/// The scene stays as it is; one sentence says what is the matter.
-TEST(a_model_that_is_missing_or_broken_is_said)
+/// A version tells whether anything has changed.
+TEST(changes_are_noted)
 {
-    char *broken = realpath(temporary_file("broken.glb", "glTF, but not really", 20), NULL);
-    const char *const names[] = {"/nowhere/at-all.glb", broken};
-    for (int i = 0; i < 2; i++) {
-        struct document *document = scene_with(names[i]);
+    struct character character = puppet_character(0.06f, 2);
+    struct figure plain = puppet_figure(&character);
+    struct painted *painted = painted_create(&plain);
+    const int vertices = plain.character.vertex_count;
+    float(*paint)[2] = calloc(2 * (size_t)vertices, sizeof *paint);
+    const uint64_t before = painted->figure.version;
+    painted_update(painted, (const float(*)[2])paint);
+    assert_true(painted->figure.version == before);
+    paint[vertices + 5][1] = 0.5f;
+    painted_update(painted, (const float(*)[2])paint);
+    assert_true(painted->figure.version > before);
+    painted_destroy(painted);
+    figure_free(&plain);
+    free(paint);
+}
+
+// --- scenes and their models
+
+/// A scene in which two splines swing; `rigs` has %s for a model's path.
+static struct document *scene_of(const char *rigs, const char *model)
+{
+    char text[2048];
+    struct document *document;
+    const int size = snprintf(text, sizeof text,
+                              "{\"wiggly\": 1, \"frames\": [0, 9], \"substeps\": 3, \"splines\": [{\"name\": \"s\", "
+                              "\"knots\": [{\"frame\": 0,"
+                              " \"value\": 0.3}, {\"frame\": 4, \"value\": -0.4}]}, {\"name\": \"t\", "
+                              "\"equilibrium\": 0.2, \"start\": \"rest\","
+                              " \"frequency\": 3, \"knots\": [{\"frame\": 3, \"value\": 0.6}]}], \"rigs\": [");
+    snprintf(text + size, sizeof text - (size_t)size, rigs, model, model);
+    strcat(text, "]}");
+    assert_done(document = scene_parse("scene.json", text, strlen(text), NULL, &error));
+    return document;
+}
+
+#define DRIVEN(coordinates)                                                                                          \
+    "{\"type\": \"character\", \"model\": \"%s\", \"position\": [1, 0.1, 2], \"coordinates\": [" coordinates "]}"
+#define A_AND_B                                                                                                      \
+    "{\"name\": \"a\", \"spline\": \"s\", \"lag\": 30}, {\"name\": \"b\", \"spline\": \"t\", \"amplitude\": 0.5}"
+
+static const char *write_ball(const char *name, float cell, int coordinates)
+{
+    struct character ball = puppet_character(cell, coordinates);
+    stir(&ball);
+    for (int k = 0; k < coordinates; k++) {
+        ball.coordinates[k].frequency = 1.23456;
+        ball.coordinates[k].damping = 0.0712345;
+    }
+    const char *path = temporary_path(name);
+    puppet_write(&ball, path);
+    return path;
+}
+
+/// At each sample the lowest vertex is the lowest of all, but none above the ceiling.
+TEST(the_lowest_vertex_of_each_sample)
+{
+    const double ceilings[] = {9, -0.05, -9};
+    struct document *document = scene_of(DRIVEN(A_AND_B), write_ball("low.glb", 0.1f, 2));
+    struct models *models = models_create();
+    struct evaluation evaluation = {.models = models_source(models)};
+    assert_done(models_update(models, document, &error));
+    evaluation_update(&evaluation, document, false);
+    const struct model_source source = models_source(models);
+    const struct posing posing = {.document = document, .evaluation = &evaluation, .models = models};
+    const int samples = evaluation.samples;
+    double *room = malloc((size_t)LOW_POINT_ROOM * (size_t)low_point_samples(samples) * sizeof *room);
+    struct low_point *low = malloc((size_t)samples * sizeof *low);
+    for (int c = 0; c < 3; c++) {
+        int below = 0;
+        assert_true(source.lowest(source.context, &evaluation, document, 0, ceilings[c], room, low));
+        for (int i = 0; i < samples; i++) {
+            struct rig_pose posed;
+            float at[3];
+            double least = INFINITY, own = NAN;
+            assert_true(rig_pose(&posing, 0, i, NULL, &posed));
+            const struct figure *figure = posed.character.figure;
+            for (int v = 0; v < figure->character.vertex_count; v++) {
+                morph_vertex(figure, &posed.character.morph, v, at, NULL);
+                const double height = (double)(at[1] + posed.character.position[1] - figure->lo[1]);
+                if (v == low[i].vertex) own = height;
+                least = fmin(least, height);
+            }
+            below += low[i].vertex >= 0;
+            assert_near(low[i].height, fmin(least, ceilings[c]), 1e-5);
+            if (low[i].vertex >= 0) assert_near(own, least, 1e-5);
+        }
+        assert_int_equal(below == samples, c == 0);
+        assert_int_equal(below == 0, c == 2);
+    }
+    free(room);
+    free(low);
+    evaluation_free(&evaluation);
+    models_destroy(models);
+    document_destroy(document);
+}
+
+/// The scene stays as it is, the first of all troubles is said in a sentence, and what can be read is there.
+TEST(models_that_do_not_suit_their_scene)
+{
+#define MODEL(name, more)                                                                                            \
+    "{\"type\": \"model\", \"name\": \"" name "\", \"model\": \"assets/models/dog.glb\"" more "}"
+#define CHAIN(from, to, more)                                                                                        \
+    "{\"type\": \"chain\", \"model\": \"dog\", \"from\": \"" from "\", \"to\": \"" to "\", \"channels\": []" more "}"
+    static const struct {
+        const char *rigs, *says; ///< "": nothing
+        bool has_figure;
+    } rows[] = {
+        {DRIVEN(A_AND_B), "", true},
+        {DRIVEN("{\"name\": \"z\", \"spline\": \"s\"}"),
+         "ball.glb: expected a coordinate called \"z\", got others, such as a", true},
+        {"{\"type\": \"character\", \"model\": \"/nowhere/at-all.glb\", \"coordinates\": []}", "/nowhere/at-all.glb",
+         false},
+        {"{\"type\": \"character\", \"model\": \"tests/rig/test_morph.c\", \"coordinates\": []}",
+         "test_morph.c: ", false},
+        {DRIVEN(A_AND_B) ", {\"type\": \"model\", \"model\": \"/nowhere/dog.glb\"}", "/nowhere/dog.glb", true},
+        {DRIVEN(A_AND_B) ", " MODEL("dog", ", \"clip\": \"Run\""),
+         "dog.glb: expected a clip called \"Run\", got others, such as Walk", true},
+        {DRIVEN(A_AND_B) ", " MODEL("dog", ", \"clip\": \"Walk\"") ", " CHAIN("tail_1", "tail_8", ""), "", true},
+        {DRIVEN(A_AND_B) ", " MODEL("dog", "") ", " CHAIN("tail_1", "wing", ""), "expected a bone called \"wing\"",
+         true},
+        {MODEL("dog", "") ", " CHAIN("tail_1", "tail_8",
+                                     ", \"pins\": [{\"frame\": 2.5, \"joint\": 8, \"to\": [0, 0, 0]}]"),
+         "tail_1: expected a joint from 0 to 7 in the pin at frame 2.5, got 8", false},
+        {MODEL("dog", "") ", " CHAIN("tail_1", "tail_8",
+                                     ", \"pins\": [{\"frame\": 2.5, \"joint\": 7, \"to\": [0, 0, 0]}]"),
+         "", false},
+    };
+    const char *ball = write_ball("ball.glb", 0.2f, 2);
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        struct document *document = scene_of(rows[r].rigs, ball);
         struct models *models = models_create();
         struct error error = {0};
-        assert_false(models_update(models, document, &error));
-        assert_int_equal(strncmp(error.text, names[i], strlen(names[i])), 0);
-        assert_null(models_figure(models, 0));
-        assert_string_equal(document_character(document, 0)->model, names[i]);
+        const bool suits = models_update(models, document, &error);
+        if (suits != !rows[r].says[0] || !strstr(error.text, rows[r].says))
+            fail_msg("'%s', expected '%s'", error.text, rows[r].says);
+        assert_int_equal(models_figure(models, 0) != NULL, rows[r].has_figure);
+        assert_null(models_figure(models, 1));
         models_destroy(models);
         document_destroy(document);
     }
-    free(broken);
+    assert_null(models_figure(NULL, 0));
 }
 
-/// A coordinate that the model lacks is said, and what it has moves; a file that was written anew is read anew.
-TEST(a_model_is_read_once_and_again_when_it_changes)
+/// A model is read once, and again when its file was written anew. Paint on the second of two characters moves that alone; paint for another model
+/// is said and left.
+TEST(models_follow_files_and_paint)
 {
-    const char *path = temporary_path("ball.glb");
-    struct character character = puppet_character(0.2f, 1), finer = puppet_character(0.1f, 1);
-    struct document *document = scene_with(path);
+    struct document *document = scene_of(DRIVEN(A_AND_B) ", " DRIVEN(A_AND_B), write_ball("twins.glb", 0.2f, 2));
     struct models *models = models_create();
-    struct error lacks;
-    assert_done(character_write(path, &character, true, &error));
-    assert_refusal(models_update(models, document, &error),
-                   "ball.glb: expected a coordinate called \"z\", got others, such as a");
-    const struct figure *figure = models_figure(models, 0);
-    assert_non_null(figure);
-    const uint64_t id = figure->id;
-    models_update(models, document, &lacks);
+    assert_done(models_update(models, document, &error));
+    assert_true(models_suit(models, document));
+    const struct figure *plain = models_figure(models, 0);
+    const int vertices = plain->character.vertex_count;
+    const uint64_t id = plain->id;
+    assert_ptr_equal(models_figure(models, 1), plain);
+    assert_true(edit_paint_new(document, 1, 2, vertices, NULL));
+    struct paint *paint = document->rigs[1]->character.painted;
+    for (int i = 0; i < 2 * vertices; i++) paint->values[i][0] = logf(3);
+    models_follow(models, document);
+    assert_ptr_equal(models_figure(models, 0), plain);
+    const struct figure *painted = models_figure(models, 1);
+    assert_near(painted->character.coordinates[1].re[7][1], 3 * plain->character.coordinates[1].re[7][1], 1e-5);
+    paint->values[vertices + 7][0] = 0;
+    models_follow(models, document);
+    assert_near(painted->character.coordinates[1].re[7][1], 3 * plain->character.coordinates[1].re[7][1], 1e-5);
+    paint->version++;
+    models_follow(models, document);
+    assert_near(painted->character.coordinates[1].re[7][1], plain->character.coordinates[1].re[7][1], 1e-5);
+    assert_done(models_update(models, document, &error));
     assert_true(models_figure(models, 0)->id == id);
-    assert_done(character_write(path, &finer, true, &error));
-    models_update(models, document, &lacks);
-    assert_true(models_figure(models, 0)->id != id);
-    assert_int_equal(models_figure(models, 0)->character.vertex_count, finer.vertex_count);
+    write_ball("twins.glb", 0.1f, 2);
+    assert_refusal(models_update(models, document, &error), "paint: expected paint for the 2 coordinates of ");
+    assert_true(models_figure(models, 0)->id != id && models_figure(models, 0)->character.vertex_count > vertices);
+    models_follow(models, document);
+    assert_ptr_equal(models_figure(models, 1), models_figure(models, 0));
     models_destroy(models);
     document_destroy(document);
-    character_free(&character);
-    character_free(&finer);
+}
+
+/// With its first coordinate's frequency and damping, by numbers that one would write, and a knot so that it swings at once.
+TEST(a_soft_character_opens_as_a_scene)
+{
+    struct document *document;
+    assert_done(document = import_scene(write_ball("soft.glb", 0.2f, 2), &error));
+    const struct character_rig *rig = document_character(document, 0);
+    assert_int_equal(document->spline_count, 1);
+    const struct spline *spline = document->splines[0];
+    assert_near(spline->parameter[PARAMETER_FREQUENCY].value, 1.23, 1e-12);
+    assert_near(spline->parameter[PARAMETER_DAMPING].value, 0.071, 1e-12);
+    assert_int_equal(spline->knot_count, 1);
+    assert_near(spline->knots[0].value, 0.5, 0);
+    assert_int_equal(rig->drive_count, 1);
+    assert_string_equal(rig->drives[0].name, "a");
+    assert_near(rig->drives[0].amplitude, DRIVE_DEFAULT_AMPLITUDE, 0);
+    document_destroy(document);
 }
