@@ -114,6 +114,32 @@ ROLLED_TEST(it_bends_as_the_tail_does)
     }
 }
 
+/// A chain below nodes that stretch, shear, mirror or turn: `bend` holds the picture to the points that the chain reports.
+TEST(chains_below_any_node)
+{
+    static const char *const above[] = {"'scale':[1,2,1]", "'scale':[-1,1,1]",
+                                        "'scale':[2,2,2],'rotation':[0.6,0,0,0.8]",
+                                        "'matrix':[1,0,0,0,1,1,0,0,0,0,1,0,4,5,6,1]", "'translation':[1,2,3]"};
+    for (size_t i = 0; i < sizeof above / sizeof *above; i++) {
+        const wiggly_value values[] = {{.y = 0.4, .re = 0.2}, {.re = -0.3}};
+        char nodes[512];
+        struct opened opened;
+        struct pose bent;
+        snprintf(
+            nodes, sizeof nodes,
+            "{'mesh':0},{'name':'above',%s,'children':[2]},{'name':'b','translation':[0,0.1,0.3],'children':[3]},"
+            "{'name':'c','translation':[0,0,0.3],'children':[4]},{'name':'d','translation':[0.1,0,0.2]}",
+            above[i]);
+        assert_done(opened_read(&opened, write_nodes(1, nodes), &error));
+        struct model_rig *model = &opened.document->rigs[0]->model;
+        model->turn = 70;
+        model->scale = 3;
+        memcpy(model->position, (const double[]){0.5, 0.25, -1}, sizeof model->position);
+        bend(&opened, add_chain(&opened, (struct chain_wish){.from = "b", .to = "c"}), LOOK_WIGGLY, values, &bent);
+        opened_free(&opened);
+    }
+}
+
 /// The tip, by one of the side's spline: 2 stands for as far as the plain one goes.
 ROLLED_TEST(axes_turn_and_mirror)
 {
@@ -418,6 +444,15 @@ TEST(long_and_sheared_chains)
             assert_done(chain_make(opened.document, opened.models, &wish, &rig, &error));
         opened_free(&opened);
     }
+}
+
+ROLLED_TEST(a_model_that_could_not_be_read_has_no_bones)
+{
+    struct models *none = models_create();
+    const struct chain_wish wish = {.from = "bone_4"};
+    int rig;
+    assert_refusal(chain_make(opened->document, none, &wish, &rig, &error), "could not be read, so it has no bones");
+    models_destroy(none);
 }
 
 // --- characters become scenes, and their bones chains

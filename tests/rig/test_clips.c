@@ -431,20 +431,24 @@ static void open_walk(struct walk *walk, double fps, int frames)
 #define WALK_TEST(name, fps, frames)                                                                                 \
     TEST_OF(struct walk, walk, open_walk(walk, fps, frames), opened_free(&walk->opened), name)
 
-/// Returns the largest, or −1: there is no such joint.
-static double follow(const struct walk *walk, const char *model, const char *joint, enum motion_of of)
+/// Returns the largest, or −1: there is no such joint. `chain` may be NULL.
+static double follow(const struct walk *walk, const char *model, const char *joint, enum motion_of of,
+                     const char *chain)
 {
-    char names[2][16];
+    char names[3][16];
     const struct model_source source = models_source(walk->opened.models);
-    const struct joint_motion motion = {.model = strcpy(names[0], model), .joint = strcpy(names[1], joint), .of = of};
+    const struct joint_motion motion = {.model = strcpy(names[0], model),
+                                        .joint = strcpy(names[1], joint),
+                                        .of = of,
+                                        .chain = chain ? strcpy(names[2], chain) : NULL};
     double most = 0;
     if (!source.follow(source.context, walk->opened.document, &motion, samples)) return -1;
     for (int s = 0; s < walk->count; s++) most = fmax(most, fabs(samples[s]));
     return most;
 }
 
-/// Height of the hips in the clip at a sample, metres.
-static double height_at(const struct walk *walk, int sample)
+/// The hips' place along an axis in the clip at a sample, metres.
+static double hips_at(const struct walk *walk, int sample, int axis)
 {
     const struct document *document = walk->opened.document;
     const struct imported *imported = models_imported(walk->opened.models, document, 0);
@@ -452,30 +456,44 @@ static double height_at(const struct walk *walk, int sample)
     const double time = fmod(sample * document_step(document), imported->gltf.clips[0].last);
     gltf_pose_clip(&imported->gltf, 0, time, pose);
     gltf_pose_world(&imported->gltf, pose);
-    return (double)pose->world[gltf_find_node(&imported->gltf, "hips")][13];
+    return (double)pose->world[gltf_find_node(&imported->gltf, "hips")][12 + axis];
 }
 
-/// The mean is over some samples: whole rounds.
-static void check_height(const struct walk *walk, int over)
+/// Up is the height, and across is to the left, less their means over some samples: whole rounds. For a tail, which points back, it is to the right.
+static void check_hips(struct walk *walk, int over)
 {
-    double mean = 0;
-    assert_true(follow(walk, "dog", "hips", MOTION_UP) > 0.005);
-    for (int s = 0; s < over; s++) mean += height_at(walk, s) / over;
-    for (int s = 0; s < walk->count; s++) assert_near(samples[s], height_at(walk, s) - mean, 2e-3);
+    static const struct {
+        enum motion_of of;
+        const char *chain;
+        int axis;
+        double scale, sign;
+    } rows[] = {{MOTION_UP, NULL, 1, 1, 1},
+                {MOTION_ACROSS, NULL, 0, 1, 1},
+                {MOTION_ACROSS, "tail", 0, 2, -1},
+                {MOTION_ACROSS, "nothing", 0, 1, 1}};
+    add_chain(&walk->opened, "tail_1", false);
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        double mean = 0;
+        walk->opened.document->rigs[0]->model.scale = rows[r].scale;
+        assert_true(follow(walk, "dog", "hips", rows[r].of, rows[r].chain) > 0.005);
+        for (int s = 0; s < over; s++) mean += hips_at(walk, s, rows[r].axis) / over;
+        for (int s = 0; s < walk->count; s++)
+            assert_near(samples[s], rows[r].scale * rows[r].sign * (hips_at(walk, s, rows[r].axis) - mean), 2e-3);
+    }
 }
 
-WALK_TEST(up_is_the_joints_height_less_its_mean, 24, 24 * CYCLES) { check_height(walk, 24 * SUBSTEPS); }
+WALK_TEST(what_follows_hips_moves_as_they_do, 24, 24 * CYCLES) { check_hips(walk, 24 * SUBSTEPS); }
 
 /// A clip that no number of samples fits goes on in its own time, round after round: one of a second is 93.5 samples.
-WALK_TEST(a_clip_between_samples_does_not_drift, 23.375, 720) { check_height(walk, 187); }
+WALK_TEST(a_clip_between_samples_does_not_drift, 23.375, 720) { check_hips(walk, 187); }
 
 /// Straight lines from key to key would bend at every fourth sample only; a spline's second differences do not jump.
 WALK_TEST(every_cycle_is_the_same_and_its_corners_are_rounded, 24, 24 * CYCLES)
 {
     double largest = 0, jump = 0, before = 0;
-    follow(walk, "dog", "head", MOTION_ACROSS);
+    follow(walk, "dog", "head", MOTION_ACROSS, NULL);
     for (int s = 24 * SUBSTEPS; s < walk->count; s++) assert_near(samples[s], samples[s - 24 * SUBSTEPS], 0);
-    follow(walk, "dog", "hips", MOTION_ACROSS);
+    follow(walk, "dog", "hips", MOTION_ACROSS, NULL);
     for (int s = 1; s + 1 < walk->count; s++) {
         const double bend = samples[s - 1] - 2 * samples[s] + samples[s + 1];
         if (s > 1) jump = fmax(jump, fabs(bend - before));
@@ -487,10 +505,10 @@ WALK_TEST(every_cycle_is_the_same_and_its_corners_are_rounded, 24, 24 * CYCLES)
 
 WALK_TEST(turns_are_degrees_and_nobody_has_no_motion, 24, 24)
 {
-    const double most = follow(walk, "dog", "hips", MOTION_TURN);
+    const double most = follow(walk, "dog", "hips", MOTION_TURN, NULL);
     assert_true(most > 0.5 && most < 45);
-    assert_near(follow(walk, "dog", "nobody", MOTION_UP), -1, 0);
-    assert_near(follow(walk, "nobody", "hips", MOTION_UP), -1, 0);
+    assert_near(follow(walk, "dog", "nobody", MOTION_UP, NULL), -1, 0);
+    assert_near(follow(walk, "nobody", "hips", MOTION_UP, NULL), -1, 0);
 }
 
 // --- exports edit the file's own clip

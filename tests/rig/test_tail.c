@@ -484,6 +484,21 @@ TEST(the_body_has_limits)
     opened_free(&scene);
 }
 
+/// Ears are joints 1 and 2 of a part of the body, each as much later; a head is joint 1.
+TEST(parts_of_the_body_lag)
+{
+    const wiggly_value value = oscillation(0);
+    for (int stiff = 0; stiff < 2; stiff++) {
+        struct tail tail = plain_tail(AXIS_EARS, 2);
+        channels[1].axis = AXIS_LOOK;
+        channels[0].lag.value[0] = channels[1].lag.value[0] = 30;
+        pose_tail(&tail, (const wiggly_value[]){value, value}, stiff ? LOOK_STIFF : LOOK_WIGGLY, &pose);
+        for (int n = 0; n < 2; n++)
+            assert_near(pose.limbs.ears[n], 5 * degree * cos(stiff ? 0 : 30 * degree * (n + 1)), 1e-6);
+        assert_near(pose.limbs.look, 5 * degree * cos(stiff ? 0 : 30 * degree), 1e-6);
+    }
+}
+
 static bool try_axis(struct history *history, int rig, int channel, enum axis axis)
 {
     struct channel changed = scene.document->rigs[rig]->bent.channels[channel];
