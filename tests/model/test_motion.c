@@ -1,8 +1,8 @@
 /// Motions in every form that they come in: types, orders, shapes, byte orders, caches; written and read back; refused.
+#include "base/file.h"
 #include "model/motion.h"
 #include "near.h"
 #include "temporary.h"
-#include <glob.h>
 
 enum { FRAMES = 5, VERTICES = 4, COLUMNS = 3 * VERTICES };
 
@@ -41,78 +41,69 @@ static void add(struct bytes *b, const void *data, size_t size, bool swap)
 
 static void add_number(struct bytes *b, double value, int size, bool swap)
 {
-    float single = (float)value;
-    if (size == 4) add(b, &single, 4, swap);
-    if (size == 8) add(b, &value, 8, swap);
+    const float single = (float)value;
+    add(b, size == 4 ? (const void *)&single : &value, (size_t)size, swap);
 }
 
-static void add_int(struct bytes *b, int32_t value, bool swap) { add(b, &value, 4, swap); }
+/// In which order an array has its numbers: frames, vertices, x y z; in Fortran's the first of three or of two indices runs fastest.
+enum order { IN_C, FORTRAN_3, FORTRAN_2 };
 
-/// An .npy header of version 1 or 2 with this dictionary.
-static void add_npy(struct bytes *b, int version, const char *dictionary)
+/// An array with this dictionary, of version 1 or 2.
+static const char *npy(int version, const char *dictionary, int size, bool swap, enum order order)
 {
-    size_t length = strlen(dictionary);
-    const unsigned char short_length[] = {(unsigned char)length, (unsigned char)(length >> 8)};
-    const unsigned char versions[] = {(unsigned char)version, 0};
-    add(b, "\x93NUMPY", 6, false);
-    add(b, versions, 2, false);
-    add(b, short_length, 2, false);
-    if (version == 2) add(b, "\0", 2, false);
-    add(b, dictionary, length, false);
+    static struct bytes b;
+    const uint32_t length = (uint32_t)strlen(dictionary);
+    b.size = 0;
+    add(&b, "\x93NUMPY", 6, false);
+    add(&b, &version, 1, false);
+    add(&b, "", 1, false);
+    add(&b, &length, version == 2 ? 4 : 2, false);
+    add(&b, dictionary, length, false);
+    for (int n = 0; n < FRAMES * COLUMNS; n++) {
+        const int frame = order == IN_C ? n / COLUMNS : n % FRAMES, rest = order == IN_C ? n % COLUMNS : n / FRAMES;
+        add_number(&b, number(frame, order == FORTRAN_3 ? 3 * (rest % VERTICES) + rest / VERTICES : rest), size,
+                   swap);
+    }
+    return temporary_file("motion.npy", b.data, b.size);
 }
 
 /// A dictionary in C's order.
 #define DICTIONARY(descr, shape) "{'descr': " descr ", 'fortran_order': False, 'shape': " shape ", }"
 
-static const char *npy(int version, const char *dictionary, int number_size, bool swap)
+TEST(npy_of_every_type_and_order)
 {
-    static struct bytes b;
-    b.size = 0;
-    add_npy(&b, version, dictionary);
-    for (int n = 0; n < FRAMES * COLUMNS; n++) add_number(&b, number(n / COLUMNS, n % COLUMNS), number_size, swap);
-    return temporary_file("motion.npy", b.data, b.size);
-}
-
-TEST(npy_of_every_type)
-{
-    assert_holds_numbers(npy(1, DICTIONARY("'<f4'", "(5, 4, 3)") "\n", 4, false), 0);
-    assert_holds_numbers(npy(2, "{'descr': '<f8', 'fortran_order': False, 'shape': (5, 4, 3)}", 8, false), 0);
-    assert_holds_numbers(npy(1, "{'shape': (5, 12), 'fortran_order': False, 'descr': '>f4'}", 4, true), 0);
-    assert_holds_numbers(npy(1, "{'descr':'>f8','fortran_order':False,'shape':(5,12),}", 8, true), 0);
-}
-
-TEST(npy_in_fortran_order)
-{
-    static struct bytes b;
-    add_npy(&b, 1, "{'descr': '<f4', 'fortran_order': True, 'shape': (5, 4, 3), }\n");
-    for (int k = 0; k < 3; k++) { // the first index runs fastest
-        for (int v = 0; v < VERTICES; v++) {
-            for (int i = 0; i < FRAMES; i++) add_number(&b, number(i, 3 * v + k), 4, false);
-        }
-    }
-    assert_holds_numbers(temporary_file("motion.npy", b.data, b.size), 0);
-    b.size = 0;
-    add_npy(&b, 1, "{'descr': '>f8', 'fortran_order': True, 'shape': (5, 12), }\n");
-    for (int n = 0; n < FRAMES * COLUMNS; n++) add_number(&b, number(n % FRAMES, n / FRAMES), 8, true);
-    assert_holds_numbers(temporary_file("motion.npy", b.data, b.size), 0);
-}
-
-static const char *mdd(const double times[FRAMES])
-{
-    static struct bytes b;
-    b.size = 0;
-    add_int(&b, FRAMES, true);
-    add_int(&b, VERTICES, true);
-    for (int i = 0; i < FRAMES; i++) add_number(&b, times[i], 4, true);
-    for (int n = 0; n < FRAMES * COLUMNS; n++) add_number(&b, number(n / COLUMNS, n % COLUMNS), 4, true);
-    return temporary_file("motion.mdd", b.data, b.size);
+    static const struct {
+        int version;
+        const char *dictionary;
+        int size;
+        bool swap;
+        enum order order;
+    } rows[] = {
+        {1, DICTIONARY("'<f4'", "(5, 4, 3)") "\n", 4, false, IN_C},
+        {2, "{'descr': '<f8', 'fortran_order': False, 'shape': (5, 4, 3)}", 8, false, IN_C},
+        {1, "{'shape': (5, 12), 'fortran_order': False, 'descr': '>f4'}", 4, true, IN_C},
+        {1, "{'descr':'>f8','fortran_order':False,'shape':(5,12),}", 8, true, IN_C},
+        {1, "{'descr': '<f4', 'fortran_order': True, 'shape': (5, 4, 3), }\n", 4, false, FORTRAN_3},
+        {1, "{'descr': '>f8', 'fortran_order': True, 'shape': (5, 12), }\n", 8, true, FORTRAN_2},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
+        assert_holds_numbers(npy(rows[r].version, rows[r].dictionary, rows[r].size, rows[r].swap, rows[r].order), 0);
 }
 
 TEST(mdd_carries_its_rate)
 {
-    assert_holds_numbers(mdd((const double[]){2, 2 + 1.0 / 24, 2 + 2.0 / 24, 2 + 3.0 / 24, 2 + 4.0 / 24}), 24);
-    assert_holds_numbers(mdd((const double[]){0, 1, 2, 3, 3.5}), 0); // uneven: nobody knows
-    assert_holds_numbers(mdd((const double[]){0, 0, 0, 0, 0}), 0);
+    static const struct {
+        double times[FRAMES], fps; ///< 0: uneven, so nobody knows
+    } rows[] = {{{2, 2 + 1.0 / 24, 2 + 2.0 / 24, 2 + 3.0 / 24, 2 + 4.0 / 24}, 24}, {{0, 1, 2, 3, 3.5}, 0}, {{0}, 0}};
+    static const int32_t counts[] = {FRAMES, VERTICES};
+    for (int r = 0; r < 3; r++) {
+        static struct bytes b;
+        b.size = 0;
+        for (int k = 0; k < 2; k++) add(&b, &counts[k], 4, true);
+        for (int i = 0; i < FRAMES; i++) add_number(&b, rows[r].times[i], 4, true);
+        for (int n = 0; n < FRAMES * COLUMNS; n++) add_number(&b, number(n / COLUMNS, n % COLUMNS), 4, true);
+        assert_holds_numbers(temporary_file("motion.mdd", b.data, b.size), rows[r].fps);
+    }
 }
 
 static void write_motion(const char *path)
@@ -140,51 +131,62 @@ TEST(what_is_written_reads_back)
     fclose(file);
 }
 
-static void assert_refused(const char *path, const char *says)
-{
-    struct motion motion;
-    struct error error = {0};
-    assert_false(motion_open(&motion, path, &error));
-    if (!strstr(error.text, says)) fail_msg("'%s' lacks '%s'", error.text, says);
-    assert_int_equal(error.kind, ERROR_INPUT);
-}
-
 TEST(bad_files_get_one_sentence)
 {
-    assert_refused(npy(1, DICTIONARY("'<i4'", "(5, 4, 3)"), 4, false),
-                   "expected numbers of type float32 or float64, got '<i4'");
-    assert_refused(npy(1, DICTIONARY("[('x', '<f4')]", "(5, 4, 3)"), 4, false),
-                   "expected numbers of type float32 or float64, got [('x'");
-    assert_refused(npy(1, DICTIONARY("'<f4'", "(60,)"), 4, false),
-                   "expected an array of shape (frames, vertices, 3), got (60,)");
-    assert_refused(npy(1, DICTIONARY("'<f4'", "(5, 3, 4)"), 4, false), "got (5, 3, 4)");
-    assert_refused(npy(1, DICTIONARY("'<f4'", "(0, 4, 3)"), 4, false),
-                   "expected one frame and one vertex or more, got 0 and 4");
-    assert_refused(npy(1, DICTIONARY("'<f4'", "(6, 4, 3)"), 4, false),
-                   "expected 6 frames of 4 vertices, got a file that ends in frame 5");
-    assert_refused(npy(1, DICTIONARY("'<f8'", "(1000000000, 700000000, 3)"), 4, false),
-                   "got a file that ends in frame 0");
-    assert_refused(npy(1, "{'descr': '<f4'}", 4, false), "expected the header of an .npy array");
-    assert_refused(npy(9, DICTIONARY("'<f4'", "(5, 4, 3)"), 4, false), "expected the header of an .npy array");
-    assert_refused(temporary_file("short.npy", "\x93NUMPY\1\0\xff\x0f{'descr': ", 20),
-                   "expected a header of 4105 bytes, got 20");
-    assert_refused(temporary_file("empty.npy", "", 0), "got a file of 0 bytes");
-    assert_refused(temporary_file("text.npy", "v 0 0 0\nv 1 1 1\n", 16), "got something else");
-    assert_refused(temporary_file("short.mdd", "\0\0\0\5\0\0\0\4\0\0\0\0\0\0\0\0", 16),
-                   "got a file that ends in frame 0");
-    assert_refused(temporary_file("less.mdd", "\xff\xff\xff\xff\0\0\0\4\0\0\0\0\0\0\0\0", 16), "got -1 and 4");
-    assert_refused("/nowhere.npy", "/nowhere.npy: cannot be opened");
-    assert_refused("/tmp", "/tmp: expected a file");
+    static const struct {
+        int version;
+        const char *dictionary, *says;
+    } arrays[] = {
+        {1, DICTIONARY("'<i4'", "(5, 4, 3)"), "expected numbers of type float32 or float64, got '<i4'"},
+        {1, DICTIONARY("[('x', '<f4')]", "(5, 4, 3)"), "expected numbers of type float32 or float64, got [('x'"},
+        {1, DICTIONARY("'<f4'", "(60,)"), "expected an array of shape (frames, vertices, 3), got (60,)"},
+        {1, DICTIONARY("'<f4'", "(5, 3, 4)"), "got (5, 3, 4)"},
+        {1, DICTIONARY("'<f4'", "(0, 4, 3)"), "expected one frame and one vertex or more, got 0 and 4"},
+        {1, DICTIONARY("'<f4'", "(6, 4, 3)"), "expected 6 frames of 4 vertices, got a file that ends in frame 5"},
+        {1, DICTIONARY("'<f8'", "(1000000000, 700000000, 3)"), "got a file that ends in frame 0"},
+        {1, "{'descr': '<f4'}", "expected the header of an .npy array"},
+        {9, DICTIONARY("'<f4'", "(5, 4, 3)"), "expected the header of an .npy array"},
+    };
+    static const struct {
+        const char *name, *bytes;
+        size_t size;
+        const char *says;
+    } files[] = {
+        {"short.npy", "\x93NUMPY\1\0\xff\x0f{'descr': ", 20, "expected a header of 4105 bytes, got 20"},
+        {"empty.npy", "", 0, "got a file of 0 bytes"},
+        {"text.npy", "v 0 0 0\nv 1 1 1\n", 16, "got something else"},
+        {"short.mdd", "\0\0\0\5\0\0\0\4\0\0\0\0\0\0\0\0", 16, "got a file that ends in frame 0"},
+        {"less.mdd", "\xff\xff\xff\xff\0\0\0\4\0\0\0\0\0\0\0\0", 16, "got -1 and 4"},
+    };
+    enum { ARRAYS = sizeof arrays / sizeof *arrays, FILES = sizeof files / sizeof *files };
+    for (int i = 0; i < ARRAYS + FILES + 2; i++) {
+        const int f = i - ARRAYS;
+        const char *path = f < 0       ? npy(arrays[i].version, arrays[i].dictionary, 4, false, IN_C)
+                           : f < FILES ? temporary_file(files[f].name, files[f].bytes, files[f].size)
+                           : f > FILES ? "/nowhere.npy"
+                                       : "/tmp";
+        const char *says = f < 0       ? arrays[i].says
+                           : f < FILES ? files[f].says
+                           : f > FILES ? "/nowhere.npy: cannot be opened"
+                                       : "/tmp: expected a file";
+        struct motion motion;
+        struct error error = {0};
+        assert_false(motion_open(&motion, path, &error));
+        if (!strstr(error.text, says)) fail_msg("'%s' lacks '%s'", error.text, says);
+        assert_int_equal(error.kind, ERROR_INPUT);
+    }
 }
 
 TEST(a_number_that_is_none_is_named)
 {
-    static struct bytes b;
     double slab[FRAMES * COLUMNS];
-    add_npy(&b, 1, DICTIONARY("'<f4'", "(5, 4, 3)"));
-    for (int n = 0; n < FRAMES * COLUMNS; n++) add_number(&b, n == 2 * COLUMNS + 7 ? (double)NAN : 1, 4, false);
+    const char *path = npy(1, DICTIONARY("'<f4'", "(5, 4, 3)"), 4, false, IN_C);
+    FILE *file = fopen(path, "r+b");
+    fseek(file, -(FRAMES - 2) * COLUMNS * 4 + 7 * 4, SEEK_END);
+    fwrite(&(const float){NAN}, 4, 1, file);
+    fclose(file);
     struct motion motion;
-    assert_done(motion_open(&motion, temporary_file("motion.npy", b.data, b.size), &error));
+    assert_done(motion_open(&motion, path, &error));
     assert_done(motion_columns(&motion, 0, 7, slab, &error));
     assert_refusal(motion_columns(&motion, 5, 4, slab, &error), "frame 2, vertex 2: expected a finite number");
     motion_close(&motion);
@@ -193,28 +195,29 @@ TEST(a_number_that_is_none_is_named)
 /// Headers changed at random: read or refused, never more (the sanitizers watch).
 TEST(changed_headers_do_no_harm)
 {
-    static struct bytes good, b;
+    static const char dictionary[] = "{'descr': '<f4', 'fortran_order': True, 'shape': (5, 4, 3), }";
+    char *good, *bytes;
+    size_t size;
     uint32_t seed = 4711;
     int refused = 0;
-    add_npy(&good, 1, "{'descr': '<f4', 'fortran_order': True, 'shape': (5, 4, 3), }");
-    size_t header = good.size;
-    for (int n = 0; n < FRAMES * COLUMNS; n++) add_number(&good, 1, 4, false);
+    assert_done(file_read(npy(1, dictionary, 4, false, FORTRAN_3), 1 << 16, &good, &size, &error));
     for (int round = 0; round < 1000; round++) {
         struct motion motion;
-        struct error error;
-        b = good;
+        bytes = memcpy(malloc(size), good, size);
         for (int k = 0; k < 2; k++) {
             seed = 1664525u * seed + 1013904223u;
-            b.data[(seed >> 8) % header] = (unsigned char)(k == 0 ? '0' + round % 10 : (int)(seed >> 24));
+            bytes[(seed >> 8) % (10 + strlen(dictionary))] = (char)(k == 0 ? '0' + round % 10 : (int)(seed >> 24));
         }
-        if (motion_open(&motion, temporary_file("changed.npy", b.data, b.size), &error)) {
+        if (motion_open(&motion, temporary_file("changed.npy", bytes, size), NULL)) {
             double *slab = malloc((size_t)motion.frames * 3 * (size_t)motion.vertices * sizeof *slab);
-            motion_columns(&motion, 0, 3 * motion.vertices, slab, &error);
+            motion_columns(&motion, 0, 3 * motion.vertices, slab, NULL);
             free(slab);
             motion_close(&motion);
         } else {
             refused++;
         }
+        free(bytes);
     }
+    free(good);
     assert_in_range(refused, 50, 999);
 }
