@@ -131,6 +131,15 @@ TEST(what_is_written_reads_back)
     fclose(file);
 }
 
+static void assert_refused(const char *path, const char *says)
+{
+    struct motion motion;
+    struct error error = {0};
+    assert_false(motion_open(&motion, path, &error));
+    if (!strstr(error.text, says)) fail_msg("'%s' lacks '%s'", error.text, says);
+    assert_int_equal(error.kind, ERROR_INPUT);
+}
+
 TEST(bad_files_get_one_sentence)
 {
     static const struct {
@@ -158,23 +167,12 @@ TEST(bad_files_get_one_sentence)
         {"short.mdd", "\0\0\0\5\0\0\0\4\0\0\0\0\0\0\0\0", 16, "got a file that ends in frame 0"},
         {"less.mdd", "\xff\xff\xff\xff\0\0\0\4\0\0\0\0\0\0\0\0", 16, "got -1 and 4"},
     };
-    enum { ARRAYS = sizeof arrays / sizeof *arrays, FILES = sizeof files / sizeof *files };
-    for (int i = 0; i < ARRAYS + FILES + 2; i++) {
-        const int f = i - ARRAYS;
-        const char *path = f < 0       ? npy(arrays[i].version, arrays[i].dictionary, 4, false, IN_C)
-                           : f < FILES ? temporary_file(files[f].name, files[f].bytes, files[f].size)
-                           : f > FILES ? "/nowhere.npy"
-                                       : "/tmp";
-        const char *says = f < 0       ? arrays[i].says
-                           : f < FILES ? files[f].says
-                           : f > FILES ? "/nowhere.npy: cannot be opened"
-                                       : "/tmp: expected a file";
-        struct motion motion;
-        struct error error = {0};
-        assert_false(motion_open(&motion, path, &error));
-        if (!strstr(error.text, says)) fail_msg("'%s' lacks '%s'", error.text, says);
-        assert_int_equal(error.kind, ERROR_INPUT);
-    }
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        assert_refused(npy(arrays[i].version, arrays[i].dictionary, 4, false, IN_C), arrays[i].says);
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        assert_refused(temporary_file(files[i].name, files[i].bytes, files[i].size), files[i].says);
+    assert_refused("/nowhere.npy", "/nowhere.npy: cannot be opened");
+    assert_refused("/tmp", "/tmp: expected a file");
 }
 
 TEST(a_number_that_is_none_is_named)
