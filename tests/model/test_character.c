@@ -158,7 +158,7 @@ TEST(files_of_other_programs)
          "vertices 6 coordinates 1 indices 2 1 0 3 4 5 color 1 0 ~0.2 0 0 0 0 1 0 1 1 1 1 1 1 1 1 1 "
          "normal 0 -1 0 0 -1 0 0 -1 0 0 1 0 0 1 0 0 1 0 re 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 "
          "im 0 0 0 -0.5 0 -2 0 0 0 0 0 0 0 0 0 0 0 0"},
-        // scaled and mirrored, under a parent that turns by a quarter about y and lifts; moves are not lifted, and the mirror turns triangles round
+        // scaled and mirrored, below a parent that turns by a quarter about y and lifts; moves are not lifted, triangles turn round
         {"a",
          "'nodes':[{'mesh':0,'scale':[-2,2,2]},{'children':[0],'translation':[0,5,0],'rotation':[0,0."
          "7071067811865476,0,"

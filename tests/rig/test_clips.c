@@ -152,7 +152,7 @@ static void check_clip(struct played *played, const struct action *action)
     }
 }
 
-/// Whatever clip the scene plays, it comes out, and so do all of them where that is asked for, each with the keys of the chain in its own frames.
+/// Whatever clip the scene plays comes out alone, or with all others; each has the keys of the chain in its own frames.
 TEST(clips_come_out_with_their_chains)
 {
     for (int first = 0; first < ACTIONS; first++) {
@@ -201,8 +201,8 @@ TEST(clips_of_one_name_and_poses_among_all_clips)
     play_close(&played);
 }
 
-/// The time of a clip from 1/24 s on for a second, where a scene of these frames is. A scene may begin before its clip, as those of earlier versions do: the clip
-/// waits, unless it loops in the scene.
+/// Of one that begins at 1/24 s and lasts a second. A scene may begin before its clip, as those of earlier versions do: the clip waits, unless
+/// it loops in the scene.
 TEST(the_time_of_a_clip)
 {
     static const struct {
@@ -459,7 +459,7 @@ static double hips_at(const struct walk *walk, int sample, int axis)
     return (double)pose->world[gltf_find_node(&imported->gltf, "hips")][12 + axis];
 }
 
-/// Up is the height, and across is to the left, less their means over some samples: whole rounds. For a tail, which points back, it is to the right.
+/// Up is the height, and across is to the left (of a tail, which points back, to the right), less the means over whole rounds of samples.
 static void check_hips(struct walk *walk, int over)
 {
     static const struct {

@@ -135,6 +135,8 @@ WORLD_TEST(channels_of_a_chain_are_edited_as_those_of_a_tail, world_open_scene(w
                    "only a tail has angles at rest");
     assert_refused(world, edit_bend(world, WALK, 0, -1, AXIS_SIDE, -1), "there is no such rig");
     assert_refused(world, EDIT(edit_joints, TAIL, 1), "there is no such tail");
+    assert_refused(world, edit_bend(world, TAIL, 0, -1, AXIS_BLINK, -1),
+                   "tail: the axis must be \"side\", \"up\" or \"twist\"");
     assert_refused(world, EDIT(edit_spline_remove, 1), "s: still used in 1 place; remove those first");
 }
 

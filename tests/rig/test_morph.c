@@ -435,8 +435,8 @@ TEST(models_that_do_not_suit_their_scene)
     assert_null(models_figure(NULL, 0));
 }
 
-/// A model is read once, and again when its file was written anew. Paint on the second of two characters moves that alone; paint for another model
-/// is said and left.
+/// A model is read once, and again when its file was written anew. Paint on the second of two characters moves that one alone; paint for
+/// another model is said and left.
 TEST(models_follow_files_and_paint)
 {
     struct document *document = scene_of(DRIVEN(A_AND_B) ", " DRIVEN(A_AND_B), write_ball("twins.glb", 0.2f, 2));

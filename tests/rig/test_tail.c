@@ -181,8 +181,8 @@ static bool edit_second(struct world *world, enum angle_kind kind, const struct 
     return edit_angles(world_edit(world), (struct channel_place){0, 1}, kind, angles, &world->error);
 }
 
-/// With twice the joints each bends half as much; where along the tail is where it was.
-WORLD_TEST(angles_are_edited_and_undone, world_open(world))
+/// With twice the joints each bends half as much, but for parts of the body; where along the tail is where it was.
+WORLD_TEST(angles_and_axes_are_edited_and_undone, world_open(world))
 {
     struct angles longer = ramp, wrong;
     longer.ramp[longer.count++] = (struct ramp_point){1, 7};
@@ -214,6 +214,12 @@ WORLD_TEST(angles_are_edited_and_undone, world_open(world))
         assert_near(channel->gain.ramp[i].angle, ramp.ramp[i].angle / 2, 1e-6);
         assert_near(channel->lag.ramp[i].angle, ramp.ramp[i].angle, 0);
     }
+    assert_reversible(world, edit_bend(world, 0, 1, -1, AXIS_NOD, -1));
+    assert_reversible(world, edit_joints(world_edit(world), 0, 3, &world->error));
+    assert_near(document_tail(world->document, 0)->channels[1].gain.ramp[1].angle, ramp.ramp[1].angle / 2, 1e-6);
+    assert_refused(
+        world, edit_bend(world, 0, 1, -1, AXES, -1),
+        "t: the axis must be \"side\", \"up\", \"look\", \"nod\", \"ears\", \"breath\", \"stretch\" or \"blink\"");
     world_undo_all(world);
 }
 
@@ -265,8 +271,8 @@ TEST(bounds_hold_a_curled_tail)
 
 static const float overhead[3] = {0, 1, 0};
 
-/// A tail that lies on the ground throws more shadow than one held up; both stay within the room given. The higher an animal hops, the weaker the
-/// shadow under its body: what is left falls to 1 : e in a third of its size.
+/// A tail that lies on the ground throws more shadow than one held up; both stay within the room given. The higher an animal hops, the
+/// weaker the shadow under its body: what is left falls to 1 : e in a third of its size.
 TEST(shadows_are_stronger_near_the_ground)
 {
     struct shadow_blob blobs[2][32];
@@ -499,40 +505,6 @@ TEST(parts_of_the_body_lag)
     }
 }
 
-static bool try_axis(struct history *history, int rig, int channel, enum axis axis)
-{
-    struct channel changed = scene.document->rigs[rig]->bent.channels[channel];
-    changed.axis = axis;
-    history_begin(history, "Axis", 0);
-    const bool possible = edit_channel(scene.document, (struct channel_place){rig, channel}, &changed, NULL);
-    history_end(history);
-    return possible;
-}
-
-/// A channel can be given to a part of the body and back; bending chains have none, and more joints leave it as it is.
-TEST(axes_are_edited_and_undone)
-{
-    open_scene("assets/scenes/tail.json");
-    struct history *history = history_create(scene.document);
-    assert_true(try_axis(history, 0, 1, AXIS_NOD));
-    assert_int_equal(scene.document->rigs[0]->tail.channels[1].axis, AXIS_NOD);
-    assert_true(history_undo(history));
-    assert_int_equal(scene.document->rigs[0]->tail.channels[1].axis, AXIS_UP);
-    assert_false(try_axis(history, 0, 1, AXES));
-    const double gain = scene.document->rigs[0]->tail.channels[2].gain.value[0];
-    history_begin(history, "Joints", 0);
-    assert_true(edit_joints(scene.document, 0, 12, NULL));
-    history_end(history);
-    assert_near(scene.document->rigs[0]->tail.channels[2].gain.value[0], gain, 0);
-    history_destroy(history);
-    opened_free(&scene);
-    open_scene("assets/scenes/dog.json");
-    history = history_create(scene.document);
-    assert_false(try_axis(history, 1, 0, AXIS_BLINK));
-    history_destroy(history);
-    opened_free(&scene);
-}
-
 // --- dragged: the solver's own oscillator or filter, whatever the frame rate, and it comes to rest
 
 static struct swing_filter filter_of(const struct spline *spline)
@@ -644,7 +616,8 @@ TEST(frame_rate_does_not_matter)
     assert_near(shaken(&filter, 30, 3, NULL).x[0], shaken(&filter, 144, 3, NULL).x[0], 0.01 * filter.peak);
 }
 
-/// Even a spline that rings forever lets its tail come to rest, and the base's step swings it no further than `peak`. Nothing pulls a cubic back.
+/// Even a spline that rings forever lets its tail come to rest, and a step of the base swings it no further than `peak`. Nothing pulls a
+/// cubic back.
 TEST(a_swing_comes_to_rest_within_its_peak)
 {
     const struct spline splines[] = {spline_of(WIGGLY_COMPLEX, 1, 0, 0.1), spline_of(WIGGLY_COMPLEX, 3, 0.3, 0.2),
