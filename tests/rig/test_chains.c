@@ -351,12 +351,16 @@ TEST(bones_as_they_are_seen)
          "{'mesh':0,'rotation':[0,0.6,0,0.8]},{'name':'a','children':[2]}" BONE("b", "0,1,0", ",'children':[3]")
              BONE("c", "0,0,0", ",'mesh':0,'rotation':[0,0.6,0,0.8]") "],'skins':[{'joints':[1,2]}",
          "a>b b>0,1,0 back 0 -1"},
-        // the back is where the tail's end is that is farthest from the middle
+        // the back is where the tail's end is that is farthest from the middle, unless that is in the middle
+        {1, "{'mesh':0}" BONE("Tail", "0,0,-2", "") "],'skins':[{'joints':[1]}", "Tail>0,0.1,0~ back -0.05 -2"},
+        {1, "{'mesh':0,'rotation':[0,0.6,0,0.8]}" BONE("tail", "0.014,0,-0.05", "") "],'skins':[{'joints':[1]}",
+         "tail>0,0.1,0~ back 0 -1"},
         {1,
          "{'mesh':0},{'name':'a','children':[2]}" BONE("My_Tail", "0,1,-1", ",'children':[3]")
              BONE("tail 2", "0,0,-1", ",'children':[4]") BONE("hair", "0,0,-1", ",'children':[5]")
-                 BONE("tail 3", "0,0,2.9", "") "],'skins':[{'joints':[1,2,3,4,5]}",
-         "a>My_Tail~ My_Tail>tail 2~ tail 2>hair~ hair>tail 3~ tail 3>0,0,2.9~ back -0.05 -3"},
+                 BONE("tail 3", "0,0,2.9", ",'children':[6]")
+                     BONE("tail 4", "0,0,2", "") "],'skins':[{'joints':[1,2,3,4,5,6]}",
+         "a>My_Tail~ My_Tail>tail 2~ tail 2>hair~ hair>tail 3~ tail 3>tail 4~ tail 4>0,0,2~ back -0.05 3.9"},
     };
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         struct imported imported;
