@@ -281,7 +281,7 @@ static struct document *scene_of(const char *rigs, const char *model)
     char text[2048];
     struct document *document;
     const int size = snprintf(text, sizeof text,
-                              "{\"wiggly\": 1, \"frames\": [0, 9], \"substeps\": 3, \"splines\": [{\"name\": \"s\", "
+                              "{\"wiggly\": 1, \"frames\": [0, 60], \"substeps\": 3, \"splines\": [{\"name\": \"s\", "
                               "\"knots\": [{\"frame\": 0,"
                               " \"value\": 0.3}, {\"frame\": 4, \"value\": -0.4}]}, {\"name\": \"t\", "
                               "\"equilibrium\": 0.2, \"start\": \"rest\","
@@ -310,7 +310,7 @@ static const char *write_ball(const char *name, float cell, int coordinates)
     return path;
 }
 
-/// At each sample the lowest vertex is the lowest of all, but none above the ceiling.
+/// At each sample the lowest vertex is the lowest of all, but none above the ceiling; and a pin's vertex is where it is drawn.
 TEST(the_lowest_vertex_of_each_sample)
 {
     const double ceilings[] = {9, -0.05, -9};
@@ -338,6 +338,14 @@ TEST(the_lowest_vertex_of_each_sample)
                 const double height = (double)(at[1] + posed.character.position[1] - figure->lo[1]);
                 if (v == low[i].vertex) own = height;
                 least = fmin(least, height);
+                if (c > 0 || v != i) continue;
+                const struct pin pin = {.frame = i / 3.0, .point = v};
+                const struct pin_query query = {.pin = &pin};
+                struct pin_point point;
+                assert_true(source.find(source.context, &evaluation, document, &query, NULL, &point));
+                for (int k = 0; k < 3; k++)
+                    assert_near(point.at[k], at[k] + posed.character.position[k] - (k == 1 ? figure->lo[1] : 0),
+                                1e-5);
             }
             below += low[i].vertex >= 0;
             assert_near(low[i].height, fmin(least, ceilings[c]), 1e-5);
