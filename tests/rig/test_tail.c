@@ -23,7 +23,7 @@ static struct tail plain_tail(enum axis axis, int channel_count)
     channels[1].axis = AXIS_UP;
     return (struct tail){.joints = JOINTS,
                          .length = 1.6,
-                         .position = {{0.1, -1}, {0.2, -1}, {0.3, -1}},
+                         .position = {param_number(0.1), param_number(0.2), param_number(0.3)},
                          .channels = channels,
                          .channel_count = channel_count};
 }
