@@ -344,10 +344,10 @@ TEST(the_start_scene)
         assert_int_equal(scene.evaluation.status[s], WIGGLY_OK);
     }
     assert_true(knots <= 9);
-    for (int f = 0; f < LOOP_FRAMES; f++) {
+    for (int quarter = 0; quarter < 4 * LOOP_FRAMES; quarter++) {
+        const struct pose *is = pose_at(quarter / 4.0);
+        const int f = quarter / 4;
         float lo[3], hi[3];
-        poses[f] = *pose_at(f);
-        const struct pose *is = &poses[f];
         pose_bounds(is, lo, hi);
         for (int n = 0; n < is->count; n++) {
             for (int k = 0; k < 3; k++) assert_true(is->matrix[n][12 + k] >= lo[k] && is->matrix[n][12 + k] <= hi[k]);
@@ -355,6 +355,8 @@ TEST(the_start_scene)
         }
         left = fminf(left, is->matrix[JOINTS][12]);
         right = fmaxf(right, is->matrix[JOINTS][12]);
+        if (quarter % 4 != 0) continue;
+        poses[f] = *is;
         in = fmaxf(in, is->limbs.breath);
         out = fminf(out, is->limbs.breath);
         blinks += f > 0 && is->limbs.blink > 0.5f && poses[f - 1].limbs.blink <= 0.5f;
