@@ -22,6 +22,7 @@ struct session {
     bool finger;          ///< is the pointer
     char **saved;         ///< texts returned by session_saved()
     int saved_count;
+    const char *kept;     ///< the text that hands() keeps
 };
 
 /// Keeps a request for the test, which answers it later.
