@@ -1,5 +1,6 @@
-/// What an animator feels first: presets, time to settle, wind-up, what is the limb's, what stays in its place, and a sentence on every control
-/// near the pointer.
+/// What an animator feels first: presets, time to settle, wind-up, what is the limb's, the dice, poles dragged in the inset, what stays in its place,
+/// and a sentence on every control near the pointer.
+#include "hands.h"
 #include "panel_session.h"
 
 static const char tail_scene[] =
@@ -8,27 +9,15 @@ static const char tail_scene[] =
     "{\"spline\": \"sway\", \"axis\": \"side\", \"lag\": 6.5, \"gain\": {\"ramp\": [[0, 3], [1, 9]]}},"
     "{\"spline\": \"lift\", \"axis\": \"up\", \"lag\": 5, \"gain\": [1, 2, 3]}]}]}";
 
-static const struct param *of(const struct session *s, enum parameter which)
-{
-    return &s->document->splines[active(s->editor)]->parameter[which];
-}
+static const struct tail *tail_of(const struct session *s) { return document_tail(s->document, 0); }
 
-SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
+/// 260° over two joints. A cubic begins to swing; it bends nothing.
+SESSION_TEST(a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
 {
-    const char *before = session_saved(s);
-    panel_click(s, "preset.whip");
-    assert_near(of(s, PARAMETER_FREQUENCY)->value, 1.8, 0);
-    assert_near(of(s, PARAMETER_DAMPING)->value, 0.12, 0);
-    assert_near(document_tail(s->document, 0)->channels[0].lag.value[0], 130, 0); // 260° over two joints
-    assert_near(document_tail(s->document, 0)->channels[1].lag.value[0], 130, 0);
-    assert_near(of(s, PARAMETER_WIND_UP)->value, 0.35, 0);
-    assert_one_step(s, before);
-    session_key(s, 'Z', MOD_CTRL);
-    panel_click(s, "spline.pace"); // a cubic begins to swing; it bends nothing
-    panel_click(s, "preset.antenna");
-    assert_int_equal(spline_mode(s->document->splines[1]), WIGGLY_COMPLEX);
-    assert_near(of(s, PARAMETER_FREQUENCY)->value, 5, 0);
-    assert_near(document_tail(s->document, 0)->channels[0].lag.value[0], 6.5, 0);
+    hands(s, "keep; click preset.whip; sway.frequency 1.8 ~0; sway.damping 0.12 ~0; sway.wind_up 0.35 ~0");
+    for (int i = 0; i < 2; i++) assert_near(tail_of(s)->channels[i].lag.value[0], 130, 0);
+    hands(s, "once; key Ctrl+Z; click spline.pace; click preset.antenna; pace.mode 0; pace.frequency 5 ~0");
+    assert_near(tail_of(s)->channels[0].lag.value[0], 6.5, 0);
 }
 
 static const char limb_scene[] =
@@ -45,231 +34,230 @@ static const char limb_scene[] =
     "{\"spline\": \"led\", \"axis\": \"up\", \"lag\": 0}, {\"spline\": \"still\", \"axis\": \"side\", \"lag\": 3},"
     "{\"spline\": \"breath\", \"axis\": \"breath\", \"lag\": 2}]}]}";
 
-static void preset(struct session *s) { panel_click(s, "preset.heavy"); }
-static void type_frequency(struct session *s) { panel_enter(s, "frequency", "2.2"); }
-static void drag_damping(struct session *s)
-{
-    panel_drag(s, "damping", 0.2);
-    panel_release(s);
-}
-static void type_wind_up(struct session *s) { panel_enter(s, "wind-up", "11"); }
-static void type_settle(struct session *s)
-{
-    show_more(s->editor, true);
-    session_frame(s);
-    panel_enter(s, "settle", "1.2");
-}
-static void press_f_up(struct session *s)
-{
-    session_hold(s, 'F', ACTION_PRESS);
-    session_key(s, KEY_UP, 0);
-    session_hold(s, 'F', ACTION_RELEASE);
-}
-static void with_alt(struct session *s)
-{
-    s->mods = MOD_ALT;
-    type_frequency(s);
-    s->mods = 0;
-}
-static void after_the_curve(struct session *s)
-{
-    const wiggly_value here = evaluation_at(solved(s->editor), 0, 20);
-    char curve[64];
-    snprintf(curve, sizeof curve, "curve(bend,20,%g)", here.y + here.re);
-    session_click(s, curve);
-    type_frequency(s);
-}
-static void after_the_row(struct session *s)
-{
-    panel_click(s, "spline.bend");
-    type_frequency(s);
-}
-static void after_the_tail(struct session *s)
-{
-    panel_click(s, "spline.bend");
-    session_click(s, "tail(brush,0.8)");
-    type_frequency(s);
-}
-
 /// Of bend, lift, led, still and breath. Ratios stay, 0 and what follows a spline too; a preset keeps the ratios of frequencies alone.
-SESSION_TEST(test_a_weight_is_the_limbs, panel_open(s, limb_scene, 1280, 900))
+TEST(a_weight_is_the_limbs)
 {
+#define FREQUENCY "enter frequency 2.2"
     static const struct {
-        void (*change)(struct session *s);
+        const char *steps; ///< %g: where the curve is at 20
         enum parameter parameter;
         double values[5];
-    } cases[] = {
-        {type_frequency, PARAMETER_FREQUENCY, {2.2, 2.8, 0, 0, 0.5}},
-        {press_f_up, PARAMETER_FREQUENCY, {1.15, 1.463636, 0, 0, 0.5}},
-        {preset, PARAMETER_FREQUENCY, {0.5, 0.636364, 0, 0, 0.5}},
-        {preset, PARAMETER_DAMPING, {0.35, 0.35, 0.35, 0.35, 0.1}},
-        {preset, PARAMETER_WIND_UP, {0.7, 0.7, 0.7, 0, 0}},
-        {drag_damping, PARAMETER_DAMPING, {0.2, 0.2, 0.4, 2.4, 0.1}},
-        {type_wind_up, PARAMETER_WIND_UP, {0.5042, 0.5, 0.5042, 0, 0}},
-        {type_settle, PARAMETER_DAMPING, {0.3612, 0.3612, 0.7224, 4.3344, 0.1}},
-        {with_alt, PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
-        {after_the_curve, PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
-        {after_the_row, PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
-        {after_the_tail, PARAMETER_FREQUENCY, {2.2, 2.8, 0, 0, 0.5}},
+    } rows[] = {
+        {FREQUENCY, PARAMETER_FREQUENCY, {2.2, 2.8, 0, 0, 0.5}},
+        {"hold F; key Up; let F", PARAMETER_FREQUENCY, {1.15, 1.463636, 0, 0, 0.5}},
+        {"click preset.heavy", PARAMETER_FREQUENCY, {0.5, 0.636364, 0, 0, 0.5}},
+        {"click preset.heavy", PARAMETER_DAMPING, {0.35, 0.35, 0.35, 0.35, 0.1}},
+        {"click preset.heavy", PARAMETER_WIND_UP, {0.7, 0.7, 0.7, 0, 0}},
+        {"slide damping 0.2; release", PARAMETER_DAMPING, {0.2, 0.2, 0.4, 2.4, 0.1}},
+        {"enter wind-up 11", PARAMETER_WIND_UP, {0.5042, 0.5, 0.5042, 0, 0}},
+        {"enter settle 1.2", PARAMETER_DAMPING, {0.3612, 0.3612, 0.7224, 4.3344, 0.1}},
+        {"with Alt; " FREQUENCY "; with", PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
+        {"click curve(bend,20,%g); " FREQUENCY, PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
+        {"click spline.bend; " FREQUENCY, PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
+        {"click spline.bend; click tail(brush,0.8); " FREQUENCY, PARAMETER_FREQUENCY, {2.2, 2.8, 0, 0, 0.5}},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        session_close(s);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct session session, *const s = &session;
         panel_open(s, limb_scene, 1280, 900);
-        show_more(s->editor, false);
-        const char *before = session_saved(s);
-        cases[i].change(s);
+        show_more(s->editor, strstr(rows[i].steps, "settle") != NULL);
+        hands(s, "keep; wait 1");
+        hands(s, rows[i].steps, s->work.evaluation.curves[0].total[20]);
         for (int k = 0; k < 5; k++) {
-            const struct param *param = &s->document->splines[k]->parameter[cases[i].parameter];
-            if (fabs(param->value - cases[i].values[k]) > 1e-4)
-                fail_msg("case %zu: %g of %s", i, param->value, s->document->splines[k]->name);
-            assert_int_equal(param->track, cases[i].parameter == PARAMETER_FREQUENCY && k == 2 ? 5 : -1);
+            const struct param *param = &s->document->splines[k]->parameter[rows[i].parameter];
+            const int track = rows[i].parameter == PARAMETER_FREQUENCY && k == 2 ? 5 : -1;
+            if (fabs(param->value - rows[i].values[k]) > 1e-4 || param->track != track)
+                fail_msg("%s: %g of %s", rows[i].steps, param->value, s->document->splines[k]->name);
         }
-        assert_one_step(s, before);
+        hands(s, "once");
+        session_close(s);
     }
 }
 
-static void assert_lags(const struct session *s, double bend, double lift, double led, double still)
+/// Of bend, lift, led and still; the breath's stays 2. A lag of several joints keeps its shape.
+SESSION_TEST(a_lag_is_the_limbs, panel_open(s, limb_scene, 1280, 900))
 {
-    const struct channel *c = document_tail(s->document, 0)->channels;
-    const double lags[] = {bend, lift, led, still, 2};
-    for (int k = 0; k < 5; k++) assert_near(angles_largest(&c[k].lag), lags[k], 1e-5);
-    assert_near(c[1].lag.value[0], -lift / 4, 1e-5);
-}
-
-SESSION_TEST(test_a_lag_is_the_limbs, panel_open(s, limb_scene, 1280, 900))
-{
-    panel_enter(s, "lag", "12");
-    assert_lags(s, 12, -8, 0, 6);
-    s->mods = MOD_ALT;
-    panel_enter(s, "lag", "6");
-    s->mods = 0;
-    assert_lags(s, 6, -8, 0, 6);
-    session_hold(s, 'L', ACTION_PRESS);
-    for (int i = 0; i < 6; i++) session_key(s, KEY_UP, 0);
-    session_hold(s, 'L', ACTION_RELEASE);
-    assert_lags(s, 9, -12, 0, 9);
-    panel_click(s, "spline.led");
-    panel_enter(s, "lag", "4");
-    assert_lags(s, 9, -12, 4, 9);
+    static const struct {
+        const char *steps;
+        double lags[5];
+    } rows[] = {{"enter lag 12", {12, -8, 0, 6, 2}},
+                {"with Alt; enter lag 6; with", {6, -8, 0, 6, 2}},
+                {"hold L; key 6*Up; let L", {9, -12, 0, 9, 2}},
+                {"click spline.led; enter lag 4", {9, -12, 4, 9, 2}}};
+    for (int i = 0; i < 4; i++) {
+        hands(s, "%s", rows[i].steps);
+        const struct channel *channels = tail_of(s)->channels;
+        for (int k = 0; k < 5; k++) {
+            const double lag = angles_largest(&channels[k].lag);
+            if (fabs(lag - rows[i].lags[k]) > 1e-5) fail_msg("%s: %g of channel %d", rows[i].steps, lag, k);
+        }
+        assert_near(channels[1].lag.value[0], -rows[i].lags[1] / 4, 1e-5);
+    }
 }
 
 /// The heading says what the rows are of, also while Alt is held.
-SESSION_TEST(test_the_heading_names_the_limb, panel_open(s, limb_scene, 1280, 900))
+SESSION_TEST(the_heading_names_the_limb, panel_open(s, limb_scene, 1280, 900))
 {
-    assert_true(session_shows(s, "Feel · brush (4 splines)"));
+    hands(s, "shows Feel · brush (4 splines)");
     session_send(s, (struct event){.kind = EVENT_KEY, .key = 0, .action = ACTION_PRESS, .mods = MOD_ALT});
-    session_frame(s);
-    assert_true(session_shows(s, "Feel · bend"));
+    hands(s, "wait 1; shows Feel · bend");
     session_send(s, (struct event){.kind = EVENT_KEY, .key = 0, .action = ACTION_RELEASE});
-    session_frame(s);
-    assert_true(session_shows(s, "Feel · brush (4 splines)"));
-    for (int i = 0; i < 4; i++) session_key(s, KEY_PAGE_DOWN, 0);
-    assert_true(session_shows(s, "Feel · breath"));
-    session_click(s, "tail(brush,0.8)");
-    assert_true(session_shows(s, "Feel · brush (4 splines)"));
+    hands(s, "wait 1; shows Feel · brush (4 splines); key 4*PageDown; shows Feel · breath; click tail(brush,0.8);"
+             "shows Feel · brush (4 splines)");
 }
 
-/// All knots but still ones settle, or none does, in one step.
-SESSION_TEST(test_pose_to_pose_settles_at_every_knot, panel_open(s, tail_scene, 1280, 1700))
-{
-    struct spline **const *splines = &s->document->splines;
-    session_click(s, "knot(sway,0)");
-    session_key(s, 'P', MOD_SHIFT);
-    const char *before = session_saved(s);
-    panel_click(s, "settles.all.on");
-    assert_true(!(*splines)[0]->knots[0].settles && (*splines)[0]->knots[1].settles &&
-                (*splines)[0]->knots[2].settles);
-    assert_false((*splines)[2]->knots[0].settles);
-    assert_one_step(s, before);
-    panel_click(s, "settles.all.off");
-    assert_true(!(*splines)[0]->knots[1].settles && !(*splines)[0]->knots[2].settles);
-    panel_click(s, "spline.pace"); // a cubic does not settle
-    assert_false(panel_shows(s, "settles.all.on"));
-}
+/// All knots but still ones settle, or none does, in one step; a cubic does not settle.
+WALK(pose_to_pose_settles_at_every_knot, panel_open(s, tail_scene, 1280, 1700),
+     "click knot(sway,0); key Shift+P; keep; click settles.all.on; sway.settles 0 1 1; lift.settles 0; once;"
+     "click settles.all.off; sway.settles 0 0 0; click spline.pace; lacks settles.all.on")
 
 /// Calm is of the whole curve, or of a loop.
-SESSION_TEST(test_calm_shows_where_it_acts, panel_open(s, tail_scene, 1280, 1700))
-{
-    panel_click(s, "section.advanced");
-    assert_true(panel_shows(s, "calm"));
-    panel_enter(s, "wind-up", "12");
-    assert_false(panel_shows(s, "calm"));
-    session_hold(s, 'C', ACTION_PRESS);
-    session_key(s, KEY_DOWN, 0);
-    session_hold(s, 'C', ACTION_RELEASE);
-    assert_near(of(s, PARAMETER_CALM)->value, 1, 0);
-    assert_said(s->editor, "whole curves");
-    panel_click(s, "start.loop");
-    assert_true(panel_shows(s, "calm"));
-}
+WALK(calm_shows_where_it_acts, panel_open(s, tail_scene, 1280, 1700),
+     "click section.advanced; finds calm; enter wind-up 12; lacks calm; hold C; key Down; let C; sway.calm 1 ~0;"
+     "said whole curves; click start.loop; finds calm")
 
-/// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).
-SESSION_TEST(test_the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 900))
-{
-    const double tau = 2 * acos(-1.0), ln20 = log(20);
-    const char *before = session_saved(s);
-    panel_enter(s, "settle", "2");
-    assert_near(of(s, PARAMETER_FREQUENCY)->value, 1, 0);
-    assert_near(of(s, PARAMETER_DAMPING)->value, ln20 / (tau * 2), 1e-4);
-    assert_one_step(s, before);
-    panel_enter(s, "settle", "0.01"); // sooner than critical damping
-    assert_said_error(s->editor, "settles in: expected 0.48");
-    session_key(s, KEY_ESCAPE, 0);
-    panel_pull(s, "settle", 20, 0, 4); // a second later
-    assert_near(of(s, PARAMETER_DAMPING)->value, ln20 / (tau * 3), 2e-3);
-    panel_click(s, "mode.real");
-    panel_enter(s, "settle", "1.5");
-    const double damping = of(s, PARAMETER_DAMPING)->value;
-    assert_true(damping > 0.2 && damping < 0.4);
-}
+/// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ). No sooner than with critical damping; then a second later.
+WALK(the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 900),
+     "keep; enter settle 2; sway.frequency 1 ~0; sway.damping 0.238394 ~1e-4; once; enter settle 0.01;"
+     "error settles in: expected 0.48; key Escape; carry settle 20 0; sway.damping 0.158929 ~2e-3;"
+     "click mode.real; enter settle 1.5; sway.damping 0.3 ~0.0999")
 
 /// At 24 frames a second a period of 1 Hz has 24; beyond two of them stands the whole curve.
-SESSION_TEST(test_the_wind_up_is_set_in_frames, panel_open(s, tail_scene, 1280, 900))
+SESSION_TEST(the_wind_up_is_set_in_frames, panel_open(s, tail_scene, 1280, 900))
 {
-    static const struct {
-        const char *typed;
-        double periods;
-    } cases[] = {{"12", 0.5}, {"47", 1.9583}, {"48", 0}, {"1", 0.0417}, {"900", 0}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const char *before = session_saved(s);
-        panel_enter(s, "wind-up", cases[i].typed);
-        assert_near(of(s, PARAMETER_WIND_UP)->value, cases[i].periods, 0);
-        assert_one_step(s, before);
-    }
-    panel_enter(s, "wind-up", "0");
-    assert_true(said_error(s->editor));
-    session_key(s, KEY_ESCAPE, 0);
-    panel_click(s, "mode.real");
-    assert_false(panel_shows(s, "wind-up"));
+    static const char *const rows[][2] = {
+        {"12", "0.5"}, {"47", "1.9583"}, {"48", "0"}, {"1", "0.0417"}, {"900", "0"}};
+    for (int i = 0; i < 5; i++) hands(s, "keep; enter wind-up %s; sway.wind_up %s ~0; once", rows[i][0], rows[i][1]);
+    hands(s, "enter wind-up 0; error wind-up; key Escape; click mode.real; lacks wind-up");
     inspector_add(s->editor->inspector, ADD_SPLINE);
-    assert_near(of(s, PARAMETER_WIND_UP)->value, 0.5, 0);
+    assert_near(active_spline(s->editor)->parameter[PARAMETER_WIND_UP].value, 0.5, 0);
 }
 
-static float place_of(struct session *s, const char *name)
+SESSION_TEST(selecting_knots_moves_nothing, panel_open(s, tail_scene, 1280, 1600))
 {
-    float x, y;
-    assert_true(widget_at(s->editor, name, &x, &y));
-    return y;
+    static const char *const steps[] = {"wait 1", "click knot(sway,1)", "key T", "key Ctrl+A"};
+    float x, y, before = 0;
+    for (int i = 0; i < 4; i++) {
+        hands(s, "%s", steps[i]);
+        assert_true(widget_at(s->editor, "mode.real", &x, &y));
+        if (i > 0) assert_near(y, before, 0);
+        before = y;
+    }
 }
 
-SESSION_TEST(test_selecting_knots_moves_nothing, panel_open(s, tail_scene, 1280, 1600))
+// --- the dice, and the frequency of knots ---
+
+/// Extrema of 1.25 Hz, 24 frames a second, and more.
+#define EXTREMA "{\"frame\": 5, \"value\": 1}, {\"frame\": 15, \"value\": -0.9}, {\"frame\": 24, \"value\": 0.8}"
+#define EXTREME(more)                                                                                                \
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 3, \"damping\": 0.4, "  \
+    "\"knots\": [" EXTREMA more "]}]}"
+#define SWINGING EXTREME(", {\"frame\": 34, \"value\": -0.7}, {\"frame\": 43, \"value\": 0.62}")
+
+WALK(a_key_finds_the_frequency, session_open(s, SWINGING),
+     "wait 1; keep; key Shift+F; wait 1; sway.frequency 1.26 ~0.06; sway.damping < 0.1; key Ctrl+Z; kept")
+WALK(too_few_knots_are_told, session_open(s, EXTREME("")),
+     "wait 1; key Shift+F; said Four knots; sway.frequency 3 ~0")
+
+SESSION_TEST(the_dice_rolls_another_motion, panel_open(s, SWINGING, 1280, 1200))
 {
-    const float before = place_of(s, "mode.real");
-    session_click(s, "knot(sway,1)");
-    assert_near((double)place_of(s, "mode.real"), (double)before, 0);
-    session_key(s, 'T', 0);
-    assert_near((double)place_of(s, "mode.real"), (double)before, 0);
-    session_key(s, 'A', MOD_CTRL);
-    assert_near((double)place_of(s, "mode.real"), (double)before, 0);
+    const struct param *parameters = s->document->splines[0]->parameter;
+    hands(s, "keep; click section.variation");
+    const double before = s->world.evaluation->curves[0].total[20];
+    hands(s, "click variation.roll; wait 1; sway@20 ! %.17g; sway@15 -0.9 ~0", before);
+    parameters = s->document->splines[0]->parameter;
+    assert_near(parameters[PARAMETER_VARIATION].value, 0.3, 0);
+    const double seed = parameters[PARAMETER_SEED].value;
+    hands(s, "click variation.roll");
+    assert_true(s->document->splines[0]->parameter[PARAMETER_SEED].value != seed);
+    hands(s, "key 2*Ctrl+Z; kept");
 }
 
-static void wait(struct session *s, int frames)
+WALK(the_file_has_both_numbers_and_what_else_is_there,
+     session_open(s, "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"a\", \"frequency\": 1, "
+                     "\"variation\": {\"seed\": 7, \"amount\": 0.3, \"mood\": \"mild\"}, \"knots\": []}]}"),
+     "saves \"variation\": { \"seed\": 7, \"amount\": 0.3, \"mood\": \"mild\" }")
+
+// --- poles ---
+
+static const char POLES[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": ["
+    "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"bandwidth\": 0.1234, \"knots\": ["
+    "  {\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]},"
+    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}]},"
+    "{\"name\": \"pluck\", \"mode\": \"real\", \"frequency\": 1, \"damping\": 0.08},"
+    "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": ["
+    "  {\"frame\": 10, \"value\": 1}]}], \"rigs\": []}";
+
+static void open_poles(struct session *s, int spline)
 {
-    for (int i = 0; i < frames; i++) session_frame(s);
+    panel_open(s, POLES, 1280, 1400);
+    activate(s->editor, spline);
+    hands(s, "click section.poles; wait 1");
 }
+
+/// Handles moved by so many pixels, and what parameters must then be between. Of the two poles of complex mode, whichever is taken, away from
+/// the other one is wider; those of real mode mirror each other: there is one handle. A parameter that follows another spline is not torn
+/// off it.
+static const struct move {
+    int spline;
+    const char *handle;
+    int dx, dy;
+    double frequency[2], damping[2], bandwidth[2];
+} moves[] = {
+    {0, "pole.centre", 40, -15, {1.1, 2}, {0.15, 0.5}, {0.1234, 0.1234}},
+    {0, "pole.lower", -30, 0, {1, 1}, {0.099, 0.101}, {0.2, 0.5}},
+    {0, "pole.upper", 30, 0, {1, 1}, {0.099, 0.101}, {0.2, 0.5}},
+    {2, "pole.centre", 30, -10, {1.05, 24}, {0.08001, 3}, {0, 1}},
+    {3, "pole.centre", 30, -12, {0, 24}, {0.25, 3}, {0, 1}},
+};
+
+static bool is_between(const struct session *s, enum parameter p, const double range[2])
+{
+    const double value = active_spline(s->editor)->parameter[p].value;
+    return value >= range[0] && value <= range[1];
+}
+
+/// Esc takes a drag back, also from far out; undo takes back one that was kept.
+TEST(handles_set_parameters)
+{
+    for (const struct move *move = moves; move < moves + sizeof moves / sizeof *moves; move++) {
+        for (int is_kept = 0; is_kept < 2; is_kept++) {
+            struct session session, *const s = &session;
+            open_poles(s, move->spline);
+            hands(s, "keep; %s pole.upper; pull %s %d %d 1", move->spline == 2 ? "lacks" : "finds", move->handle,
+                  move->dx, move->dy);
+            if (!is_between(s, PARAMETER_FREQUENCY, move->frequency) ||
+                !is_between(s, PARAMETER_DAMPING, move->damping) ||
+                !is_between(s, PARAMETER_BANDWIDTH, move->bandwidth))
+                fail_msg("the %s of spline %d", move->handle, move->spline);
+            assert_int_equal(s->document->splines[3]->parameter[PARAMETER_FREQUENCY].track, 1);
+            if (is_kept) {
+                hands(s, "release; label Move poles; key Ctrl+Z");
+            } else {
+                session_move(s, 1140, 10); // clamped, so that it loads again
+                session_move(s, 5, 10);
+                session_frame(s);
+                assert_true(is_between(s, PARAMETER_BANDWIDTH, (const double[]){0, 1}));
+                hands(s, "key Escape");
+            }
+            hands(s, "kept; label");
+            session_close(s);
+        }
+    }
+}
+
+SESSION_TEST(arrow_keys_move_a_focused_pole, open_poles(s, 0))
+{
+    inspector_of(s->editor)->focus = panel_id(s, "pole.centre");
+    hands(s, "key 2*Right; sway.frequency 1.1 ~1e-12; key Ctrl+Z; sway.frequency 1 ~0");
+    inspector_of(s->editor)->focus = panel_id(s, "pole.lower");
+    hands(s, "key Left; sway.bandwidth 0.133 ~1e-12");
+}
+
+// --- a sentence on every control ---
 
 /// It comes after half a second of rest, beside the pointer and inside the window, and goes with a press.
-SESSION_TEST(test_a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 600))
+SESSION_TEST(a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 600))
 {
     static const char *const names[] = {"frequency", "preset.cat", "look.cubic"};
     const struct rect window = layout_of(s->editor)->window;
@@ -281,11 +269,11 @@ SESSION_TEST(test_a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 
         session_frame(s);
         assert_false(tooltip_is_shown(tooltip));
         assert_true(editor_wants_frames(s->editor));
-        wait(s, 20);
+        hands(s, "wait 20");
         session_move(s, x + 2, y); // not at rest yet
-        wait(s, 20);
+        hands(s, "wait 20");
         assert_false(tooltip_is_shown(tooltip));
-        wait(s, 20);
+        hands(s, "wait 20");
         assert_true(tooltip_is_shown(tooltip));
         const struct rect box = tooltip_box(tooltip, window);
         assert_false(rect_contains(box, s->x, s->y));
@@ -297,23 +285,20 @@ SESSION_TEST(test_a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 
     assert_false(tooltip_is_shown(tooltip));
     session_release(s, BUTTON_MIDDLE);
     session_move(s, 100, 100);
-    wait(s, 40);
+    hands(s, "wait 40");
     assert_false(tooltip_is_shown(tooltip));
     session_key(s, KEY_TAB, 0); // the first section's header has the keyboard
-    wait(s, 40);
+    hands(s, "wait 40");
     assert_true(tooltip_is_shown(tooltip));
     assert_true(tooltip_box(tooltip, window).x > window.w - 280);
 }
 
-SESSION_TEST(test_controls_below_have_tooltips, panel_open(s, tail_scene, 960, 600))
+SESSION_TEST(controls_below_have_tooltips, panel_open(s, tail_scene, 960, 600))
 {
     static const char *const controls[] = {"play", "loop", "speed", "auto-key", "keep", "size", "present"};
     for (size_t i = 0; i < sizeof controls / sizeof controls[0]; i++) {
-        char target[32];
-        snprintf(target, sizeof target, "widget(%s)", controls[i]);
-        session_hover(s, target);
-        wait(s, 40);
-        assert_true(tooltip_is_shown(tooltip_of(s->editor)));
+        hands(s, "hover widget(%s); wait 40", controls[i]);
+        if (!tooltip_is_shown(tooltip_of(s->editor))) fail_msg("%s has no tooltip", controls[i]);
     }
 }
 
@@ -359,13 +344,11 @@ static void assert_all_explained(struct session *s)
     }
 }
 
-SESSION_TEST(test_every_control_of_a_tail_explains_itself, panel_open(s, tail_scene, 1280, 3200))
+SESSION_TEST(every_control_of_a_tail_explains_itself, panel_open(s, tail_scene, 1280, 3200))
 {
-    session_click(s, "knot(sway,1)");
-    session_key(s, 'T', 0);
+    hands(s, "click knot(sway,1); key T");
     assert_all_explained(s);
-    panel_click(s, "mode.real");
-    panel_click(s, "spline.lift");
+    hands(s, "click mode.real; click spline.lift");
     assert_all_explained(s);
 }
 
@@ -374,11 +357,11 @@ static void open_file(struct session *s, const char *scene)
     struct models *models = panel_open_models(s, scene);
     assert_non_null(models);
     editor_resize(s->editor, 1280, 3200, 1);
-    wait(s, 2);
+    hands(s, "wait 2");
 }
 
 SESSION_TEST(
-    test_every_control_of_characters_explains_itself,
+    every_control_of_characters_explains_itself,
     open_file(
         s,
         "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
@@ -386,21 +369,16 @@ SESSION_TEST(
         "{\"type\": \"character\", \"model\": \"assets/models/creature.glb\", \"coordinates\": "
         "[{\"name\": \"up\", \"spline\": \"s\"}], \"pins\": [{\"frame\": 4, \"vertex\": 9, \"to\": [0, 1, 0]}]}]}"))
 {
-    session_key(s, 'B', MOD_SHIFT);
+    hands(s, "key Shift+B");
     assert_all_explained(s);
     session_close(s);
     open_file(s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
                  "\"value\": 1}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"dog\", \"model\": "
                  "\"assets/models/dog.glb\"}, {\"type\": \"chain\", \"name\": \"ear\", \"model\": \"dog\", \"from\": "
                  "\"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": [{\"spline\": \"s\"}]}]}");
-    session_key(s, 'J', 0);
+    hands(s, "key J");
     assert_all_explained(s);
 }
 
-SESSION_TEST(test_presets_can_be_read_on_a_small_window, panel_open(s, tail_scene, 640, 360))
-{
-    static const char *const words[] = {"Cat", "Whip", "Heavy", "Jelly", "Antenna"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) assert_true(session_shows(s, words[i]));
-    panel_click(s, "preset.jelly");
-    assert_near(of(s, PARAMETER_FREQUENCY)->value, 3, 0);
-}
+WALK(presets_can_be_read_on_a_small_window, panel_open(s, tail_scene, 640, 360),
+     "shows Cat; shows Whip; shows Heavy; shows Jelly; shows Antenna; click preset.jelly; sway.frequency 3 ~0")
