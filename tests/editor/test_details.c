@@ -1,7 +1,9 @@
-/// Details of the editor, one each: notches of the wheel, lists longer than the screen, held letters, targets of recordings.
+/// Details of the editor, one each: notches of the wheel, lists longer than the screen and what typing finds in them, held letters, targets of
+/// recordings.
+#include "hands.h"
 #include "panel_session.h"
-#include "shown.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 
 static const char tail[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
@@ -10,55 +12,35 @@ static const char tail[] =
     "\"channels\": [{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\", \"gain\": "
     "3}]}]}";
 
-static double frames_wide(struct session *s)
-{
-    float x[2], y;
-    struct error error = {0};
-    if (!editor_target(s->editor, "curve(sway,38,-0.5)", &x[0], &y, &error) ||
-        !editor_target(s->editor, "curve(sway,42,-0.5)", &x[1], &y, &error)) {
-        fail_msg("%s", error.text);
-    }
-    return 4 / (double)(x[1] - x[0]);
-}
+/// How many frames a pixel is wide.
+static double frames_wide(const struct session *s) { return 1 / (double)(x_of(s->editor, 1) - x_of(s->editor, 0)); }
 
 /// A turn of two notches is as much as two of one.
 SESSION_TEST(notches_of_the_wheel_add_up, session_open(s, tail))
 {
-    double width[3];
-    session_point(s, "curve(sway,40,-0.5)");
-    width[0] = frames_wide(s);
-    session_wheel(s, 1);
-    session_wheel(s, 1);
-    width[1] = frames_wide(s);
-    session_wheel(s, 2);
-    width[2] = frames_wide(s);
+    static const char *const turns[] = {"point curve(sway,40,-0.5)", "wheel 1; wheel 1", "wheel 2", "wheel -4"};
+    double width[4];
+    for (int i = 0; i < 4; i++) {
+        hands(s, "%s", turns[i]);
+        width[i] = frames_wide(s);
+    }
     assert_true(width[1] < 0.95 * width[0] && width[1] > 0.3 * width[0]);
     assert_near(width[2] / width[1], width[1] / width[0], 1e-3);
-    session_wheel(s, -4);
-    assert_near(frames_wide(s), width[0], 1e-3 * width[0]);
+    assert_near(width[3], width[0], 1e-3 * width[0]);
 }
 
 /// More splines than the window is high: the wheel turns the open list, wherever on it the pointer is.
 TEST(a_long_list_turns_by_wheel)
 {
-    static char scene[8000];
-    size_t end = (size_t)snprintf(scene, sizeof scene, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [");
+    static char scene[8000] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [";
     for (int i = 0; i < 60; i++)
-        end += (size_t)snprintf(scene + end, sizeof scene - end, "%s{\"name\": \"s%d\", \"knots\": []}", i ? "," : "",
-                                i);
-    snprintf(scene + end, sizeof scene - end, "], \"rigs\": []}");
-    struct session s;
-    panel_open(&s, scene, 1280, 600);
-    panel_click(&s, "follow.frequency");
-    assert_true(panel_shows(&s, "item.s1"));
-    assert_false(panel_shows(&s, "item.s59"));
-    float x, y;
-    assert_true(widget_at(s.editor, "item.s3", &x, &y));
-    session_move(&s, x, y);
-    for (int i = 0; i < 20; i++) session_wheel(&s, -5);
-    assert_true(panel_shows(&s, "item.s59"));
-    assert_false(panel_shows(&s, "item.s1"));
-    session_close(&s);
+        sprintf(scene + strlen(scene), "%s{\"name\": \"s%d\", \"knots\": []}", i ? "," : "", i);
+    struct session session, *const s = &session;
+    panel_open(s, strcat(scene, "], \"rigs\": []}"), 1280, 600);
+    hands(s, "click follow.frequency; finds item.s1; lacks item.s59; point item.s3");
+    for (int i = 0; i < 20; i++) session_wheel(s, -5);
+    hands(s, "finds item.s59; lacks item.s1");
+    session_close(s);
 }
 
 static double lag_of(const struct session *s, int channel)
@@ -67,19 +49,15 @@ static double lag_of(const struct session *s, int channel)
 }
 
 /// L and an arrow: the lag of the channel that the active spline drives, whichever it is.
-TEST(lag_is_the_active_splines)
+SESSION_TEST(lag_is_the_active_splines, session_open(s, tail))
 {
     for (int active = 0; active < 2; active++) {
-        struct session s;
-        session_open(&s, tail);
-        core_choose(&s.editor->core, active);
-        const double before[2] = {lag_of(&s, 0), lag_of(&s, 1)};
-        session_hold(&s, 'L', ACTION_PRESS);
-        session_key(&s, KEY_UP, 0);
-        session_hold(&s, 'L', ACTION_RELEASE);
-        assert_near(lag_of(&s, active), before[active] + 0.5, 1e-9);
-        assert_near(lag_of(&s, 1 - active), before[1 - active], 0);
-        session_close(&s);
+        const double before[2] = {lag_of(s, 0), lag_of(s, 1)};
+        core_choose(&s->editor->core, active);
+        hands(s, "keep; hold L; key Up; let L");
+        assert_near(lag_of(s, active), before[active] + 0.5, 1e-9);
+        assert_near(lag_of(s, 1 - active), before[1 - active], 0);
+        hands(s, "key Ctrl+Z; kept");
     }
 }
 
@@ -125,34 +103,23 @@ SESSION_TEST(small_buttons_have_their_icons, panel_open(s, tail, 1280, 1400))
 SESSION_TEST(the_map_of_poles_has_its_numbers, panel_open(s, tail, 1280, 1400))
 {
     unfold(s->editor, "section.poles");
-    session_frame(s);
-    assert_non_null(shown_text(s->editor, "ζ 0.2"));
-    assert_null(shown_text(s->editor, "ζ 0"));
+    hands(s, "wait 1; shows ζ 0.2; hides ζ 0");
 }
 
-/// A letter that is let go while a dialog is open is no longer held once that is closed.
+/// A letter that is let go while a dialog, which no key has opened, is open is no longer held once that is closed.
 SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
 {
-    const char *before = session_saved(s);
-    session_hold(s, 'F', ACTION_PRESS);
-    offer_recovery(s->editor, &(struct recovery_offer){.name = "walk.json"}); // by no key
-    assert_int_equal(asked(s->editor), DIALOG_RECOVER);
-    session_hold(s, 'F', ACTION_RELEASE);
-    session_key(s, KEY_ESCAPE, 0);
-    assert_int_equal(asked(s->editor), DIALOG_NONE);
-    session_key(s, KEY_UP, 0);
-    assert_saved(s, before);
+    hands(s, "keep; hold F");
+    offer_recovery(s->editor, &(struct recovery_offer){.name = "walk.json"});
+    hands(s, "asked %d; let F; key Escape; asked %d; key Up; kept", DIALOG_RECOVER, DIALOG_NONE);
 }
 
-SESSION_TEST(
-    nothing_to_follow_is_an_error,
-    panel_open(
-        s, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"alone\", \"knots\": []}], \"rigs\": []}",
-        1280, 720))
-{
-    panel_click(s, "follow.frequency");
-    assert_said_error(s->editor, "no other spline for alone to follow");
-}
+WALK(nothing_to_follow_is_an_error,
+     panel_open(s,
+                "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"alone\", \"knots\": []}], "
+                "\"rigs\": []}",
+                1280, 720),
+     "click follow.frequency; error no other spline for alone to follow")
 
 /// What a recording names and the scene does not have is said.
 SESSION_TEST(targets_that_are_missing_are_said, session_open(s, tail))
@@ -178,16 +145,8 @@ SESSION_TEST(a_target_from_the_pointer, session_open(s, tail))
 }
 
 /// Knots before a first frame are asked about, as those behind a last one are.
-SESSION_TEST(a_first_frame_asks_for_its_knots, panel_open(s, tail, 1280, 1600))
-{
-    panel_click(s, "section.scene");
-    panel_enter(s, "scene.first", "30");
-    assert_int_equal(asked(s->editor), DIALOG_ASK);
-    session_key(s, 'T', 0);
-    assert_int_equal(s->document->first_frame, 30);
-    assert_int_equal(s->document->splines[0]->knot_count, 1);
-    assert_int_equal(s->document->splines[1]->knot_count, 0);
-}
+WALK(a_first_frame_asks_for_its_knots, panel_open(s, tail, 1280, 1600),
+     "click section.scene; enter scene.first 30; asked %d; key T; first 30; sway.knots 1; lift.knots 0", DIALOG_ASK)
 
 /// A preset is no state that something is in: none of their buttons looks like the one that Enter presses.
 SESSION_TEST(presets_look_alike_and_plain, panel_open(s, tail, 1280, 1400))
@@ -204,4 +163,56 @@ SESSION_TEST(presets_look_alike_and_plain, panel_open(s, tail, 1280, 1400))
             if (covers && c->color == theme()->accent) fail_msg("%s stands out", presets[p]);
         }
     }
+}
+
+// --- what typing finds in a list ---
+
+TEST(typing_fits_names)
+{
+    static const struct {
+        const char *typed, *text;
+        enum fit fit;
+    } cases[] = {
+        {"", "tail_1", FIT_START},
+        {"tail", "tail_1", FIT_START},
+        {"TAIL", "tail_1", FIT_START},
+        {"spl", "Add a spline", FIT_WORD},
+        {"pli", "Add a spline", FIT_INSIDE},
+        {"asp", "Add a spline", FIT_LETTERS},
+        {"spline add", "Add a spline", FIT_WORD},
+        {"add x", "Add a spline", FIT_NOT},
+        {"enilps", "Add a spline", FIT_NOT},
+        {"1", "tail_1", FIT_WORD},
+        {"ü", "Schwänze über", FIT_WORD},
+        {"nze", "Schwänze", FIT_INSIDE},
+        {"  ", "tail_1", FIT_START},
+        {"tail_12", "tail_1", FIT_NOT},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct ui_filter filter = {.typed = ""};
+        strcpy(filter.typed, cases[i].typed);
+        const enum fit fit = ui_filter_fit(&filter, cases[i].text);
+        if (fit != cases[i].fit)
+            fail_msg("“%s” in “%s”: expected %d, got %d", cases[i].typed, cases[i].text, (int)cases[i].fit, (int)fit);
+    }
+}
+
+static bool type(struct ui_filter *filter, uint32_t codepoint)
+{
+    return ui_filter_event(filter, &(struct event){.kind = EVENT_TEXT, .codepoint = codepoint});
+}
+
+/// Characters of several bytes come and go whole; what is full stays as it is.
+TEST(a_filter_is_typed)
+{
+    const struct event back = {.kind = EVENT_KEY, .key = KEY_BACKSPACE, .action = ACTION_PRESS};
+    struct ui_filter filter = {.typed = ""};
+    assert_false(type(&filter, ' '));
+    assert_false(ui_filter_event(&filter, &back));
+    assert_true(type(&filter, 'a') && type(&filter, 0x2026) && type(&filter, ' '));
+    assert_string_equal(filter.typed, "a… ");
+    assert_true(ui_filter_event(&filter, &back) && ui_filter_event(&filter, &back));
+    assert_string_equal(filter.typed, "a");
+    while (type(&filter, 0x1F98A)) continue;
+    assert_true(strlen(filter.typed) < sizeof filter.typed && strlen(filter.typed) % 4 == 1);
 }
