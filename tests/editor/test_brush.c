@@ -1,6 +1,7 @@
 /// The brush on a character's surface, by mouse and keys: what a stroke changes and what it leaves alone, its undo, its modes, and
 /// the distances that it works with.
 #include "folder.h"
+#include "hands.h"
 #include "panel_session.h"
 #include "puppet.h"
 #include "timing/framelog.h"
@@ -30,36 +31,20 @@ static struct character make_hand(void)
     return character;
 }
 
-static const char *model(void) { return folder_path("hand.glb"); }
-
 static int make_model(void **state)
 {
     if (folder_make(state) != 0) return -1;
     struct character character = make_hand();
-    puppet_write(&character, model());
+    puppet_write(&character, folder_path("hand.glb"));
     return 0;
 }
 
-struct studio {
-    struct session session;
-    struct models *models;
-    const struct figure *plain;
-};
+static const struct figure *plain; ///< the character without paint
 
-static struct character_rig *rig_of(const struct studio *s) { return document_character(s->session.document, 0); }
+static const struct paint *paint_of(const struct session *s) { return document_character(s->document, 0)->painted; }
 
-static void frame(struct studio *s)
-{
-    models_follow(s->models, s->session.document);
-    session_frame(&s->session);
-}
-
-static void frames(struct studio *s, int count)
-{
-    for (int i = 0; i < count; i++) frame(s);
-}
-
-static void studio_open(struct studio *s)
+/// With the brush on, unless a test is about how it is taken.
+static void open_studio(struct session *s, bool takes_brush)
 {
     char scene[700];
     snprintf(scene, sizeof scene,
@@ -67,160 +52,134 @@ static void studio_open(struct studio *s)
              "\"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": ["
              "{\"type\": \"character\", \"name\": \"hand\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", "
              "\"spline\": \"s\"}]}]}",
-             model());
-    s->models = panel_open_models(&s->session, scene);
-    if (playback_of(s->session.editor)->playing) session_key(&s->session, KEY_SPACE, 0);
-    s->plain = models_figure(s->models, 0);
-    camera_of(s->session.editor)->azimuth = -1.5708f; // from the front
-    frame(s);
+             folder_path("hand.glb"));
+    plain = models_figure(panel_open_models(s, scene), 0);
+    if (playback_of(s->editor)->playing) hands(s, "key Space");
+    camera_of(s->editor)->azimuth = -1.5708f; // from the front
+    hands(s, takes_brush ? "wait 1; key Shift+B" : "wait 1");
 }
 
 /// The middle of the front of a finger, 3/4 up.
-static const char left_finger[] = "character(hand,0.2,0.75)", right_finger[] = "character(hand,0.8,0.75)";
+#define LEFT "character(hand,0.2,0.75)"
+#define RIGHT "character(hand,0.8,0.75)"
 
-/// Holds the button at a target for so many frames.
-static void hold(struct studio *s, const char *target, unsigned mods, int count)
+/// Holds the button on the left finger for so many frames.
+static void stroke(struct session *s, const char *mods, int frames)
 {
-    s->session.mods = mods;
-    session_point(&s->session, target);
-    session_press(&s->session, BUTTON_LEFT, 1);
-    frames(s, count);
-    session_release(&s->session, BUTTON_LEFT);
-    s->session.mods = 0;
-    frame(s);
+    hands(s, "with %s; press " LEFT "; wait %d; release; with; wait 1", mods, frames);
 }
 
-static const float *value_of(const struct studio *s, int coordinate, int vertex)
+static const float *value_of(const struct session *s, int coordinate, int vertex)
 {
-    return rig_of(s)->painted->values[coordinate * rig_of(s)->painted->vertices + vertex];
+    return paint_of(s)->values[coordinate * paint_of(s)->vertices + vertex];
 }
 
-#define STUDIO_TEST(name) TEST_OF(struct studio, s, studio_open(s), session_close(&s->session), name)
+/// Of the first coordinate's amplitudes (0) or phases (1): the least, the most and the mean.
+static void survey(const struct session *s, int which, double found[3])
+{
+    const int count = paint_of(s)->vertices;
+    memset(found, 0, 3 * sizeof *found);
+    for (int i = 0; i < count; i++) {
+        const double value = (double)value_of(s, 0, i)[which];
+        found[0] = fmin(found[0], value);
+        found[1] = fmax(found[1], value);
+        found[2] += value / count;
+    }
+}
+
+enum { LEAST, MOST, MEAN };
+
+#define STUDIO_TEST(name) SESSION_TEST(name, open_studio(s, true))
 
 STUDIO_TEST(a_stroke_changes_phase_where_it_is_and_nowhere_else)
 {
-    session_key(&s->session, 'B', MOD_SHIFT);
-    brush_of(s->session.editor)->radius = 0.2; // 0.19 m: through the air it would reach the other finger
-    hold(s, left_finger, 0, 30);
-    assert_non_null(rig_of(s)->painted);
-    float most = 0;
-    for (int i = 0; i < s->plain->character.vertex_count; i++) {
-        const float *p = s->plain->character.position[i], *value = value_of(s, 0, i);
-        assert_true(value[1] >= 0);
-        assert_near((double)value[0], 0, 0);
-        assert_near((double)value_of(s, 1, i)[1], 0, 0);
-        if (p[0] > 0 || p[1] < 0.4f) assert_near((double)value[1], 0, 0);
-        most = fmaxf(most, value[1]);
+    double found[3];
+    brush_of(s->editor)->radius = 0.2; // 0.19 m: through the air it would reach the other finger
+    stroke(s, "", 30);
+    for (int i = 0; i < plain->character.vertex_count; i++) {
+        const float *p = plain->character.position[i], *value = value_of(s, 0, i);
+        assert_near(value[0], 0, 0);
+        assert_near(value_of(s, 1, i)[1], 0, 0);
+        if (p[0] > 0 || p[1] < 0.4f) assert_near(value[1], 0, 0);
     }
+    survey(s, 1, found);
+    assert_near(found[LEAST], 0, 0);
     // Half a second at 0.4 of a turn a second, but for what the surface has moved under the pointer meanwhile.
-    assert_near((double)most, 0.5 * 0.4 * 6.2831853, 0.1);
-    assert_int_equal((int)history_count(s->session.history), 1);
-    assert_string_equal(history_undo_label(s->session.history), "Advance phase");
+    assert_near(found[MOST], 0.5 * 0.4 * 6.2831853, 0.1);
+    assert_int_equal((int)history_count(s->history), 1);
+    hands(s, "label Advance phase");
 }
 
+/// Escape takes the stroke back, and the brush stays.
 STUDIO_TEST(undo_and_redo_are_exact)
 {
-    session_key(&s->session, 'B', MOD_SHIFT);
-    hold(s, left_finger, 0, 10);
-    const size_t size = 2 * (size_t)s->plain->character.vertex_count * sizeof(float[2]);
+    const size_t size = 2 * (size_t)plain->character.vertex_count * sizeof(float[2]);
     float *once = malloc(size), *twice = malloc(size);
     assert_true(once && twice);
-    memcpy(once, rig_of(s)->painted->values, size);
-    session_point(&s->session, left_finger);
-    session_press(&s->session, BUTTON_LEFT, 1);
-    for (int i = 0; i < 10; i++) {
-        session_move(&s->session, s->session.x, s->session.y + 8);
-        frame(s);
-    }
-    session_release(&s->session, BUTTON_LEFT);
-    memcpy(twice, rig_of(s)->painted->values, size);
+    stroke(s, "", 10);
+    memcpy(once, paint_of(s)->values, size);
+    hands(s, "carry " LEFT " 0 80 10");
+    memcpy(twice, paint_of(s)->values, size);
     assert_true(memcmp(once, twice, size) != 0);
-    session_key(&s->session, 'Z', MOD_CTRL);
-    assert_memory_equal(rig_of(s)->painted->values, once, size);
-    session_key(&s->session, 'Z', MOD_CTRL);
-    assert_null(rig_of(s)->painted);
-    frame(s);
-    assert_memory_equal(models_figure(s->models, 0)->character.coordinates[0].re,
-                        s->plain->character.coordinates[0].re,
-                        (size_t)s->plain->character.vertex_count * sizeof(float[3]));
-    session_key(&s->session, 'Y', MOD_CTRL);
-    session_key(&s->session, 'Y', MOD_CTRL);
-    assert_memory_equal(rig_of(s)->painted->values, twice, size);
-    session_point(&s->session, left_finger);
-    session_press(&s->session, BUTTON_LEFT, 1);
-    frames(s, 5);
-    session_key(&s->session, KEY_ESCAPE, 0); // takes the stroke back, and the brush stays
-    assert_memory_equal(rig_of(s)->painted->values, twice, size);
-    assert_true(brush_of(s->session.editor)->on);
-    assert_int_equal((int)history_count(s->session.history), 2);
+    hands(s, "key Ctrl+Z");
+    assert_memory_equal(paint_of(s)->values, once, size);
+    hands(s, "key Ctrl+Z");
+    assert_null(paint_of(s));
+    hands(s, "wait 1");
+    assert_memory_equal(models_figure(s->work.models, 0)->character.coordinates[0].re,
+                        plain->character.coordinates[0].re, (size_t)plain->character.vertex_count * sizeof(float[3]));
+    hands(s, "key 2*Ctrl+Y");
+    assert_memory_equal(paint_of(s)->values, twice, size);
+    hands(s, "press " LEFT "; wait 5; key Escape");
+    assert_memory_equal(paint_of(s)->values, twice, size);
+    assert_true(brush_of(s->editor)->on);
+    assert_int_equal((int)history_count(s->history), 2);
     free(once);
     free(twice);
 }
 
-/// Only the press, which makes room for the stroke, may allocate.
+/// Only the press, which makes room for the stroke, may allocate. Playing, as one paints.
 STUDIO_TEST(a_stroke_allocates_nothing_as_it_goes_on)
 {
-    session_key(&s->session, 'B', MOD_SHIFT);
-    hold(s, right_finger, 0, 3);
-    session_key(&s->session, KEY_SPACE, 0); // playing, as one paints
-    session_point(&s->session, left_finger);
-    session_press(&s->session, BUTTON_LEFT, 1);
-    frames(s, 2);
+    hands(s, "press " RIGHT "; wait 3; release; wait 1; key Space; press " LEFT "; wait 2");
     const long before = allocation_count();
-    for (int i = 0; i < 20; i++) {
-        session_move(&s->session, s->session.x, s->session.y + 6);
-        frame(s);
-    }
+    session_drag(s, 0, 120, 20);
     assert_int_equal(allocation_count() - before, 0);
-    session_release(&s->session, BUTTON_LEFT);
 }
 
-static double mean_lead(const struct studio *s)
+SESSION_TEST(modes_and_modifiers_do_what_they_say, open_studio(s, false))
 {
-    double sum = 0;
-    for (int i = 0; i < rig_of(s)->painted->vertices; i++) sum += (double)value_of(s, 0, i)[1];
-    return sum / rig_of(s)->painted->vertices;
-}
-
-STUDIO_TEST(modes_and_modifiers_do_what_they_say)
-{
-    panel_click(&s->session, "paint.on");
-    assert_true(brush_of(s->session.editor)->on);
-    hold(s, left_finger, MOD_CTRL, 10);
-    assert_string_equal(history_undo_label(s->session.history), "Delay phase");
-    const double delayed = mean_lead(s);
-    assert_true(delayed < -1e-3);
-    panel_click(&s->session, "phase.delay");
-    hold(s, left_finger, MOD_CTRL, 10);
-    assert_string_equal(history_undo_label(s->session.history), "Advance phase");
-    assert_true(fabs(mean_lead(s)) < -0.1 * delayed); // all but what the surface moved meanwhile
-    panel_click(&s->session, "swing.less");
-    brush_of(s->session.editor)->strength = 1;
-    for (int stroke = 0; stroke < 6; stroke++) hold(s, left_finger, 0, 90);
-    panel_click(&s->session, "erase.all");
-    assert_string_equal(history_undo_label(s->session.history), "Less amplitude");
-    float least = 0;
-    for (int i = 0; i < rig_of(s)->painted->vertices; i++) {
-        const float swell = value_of(s, 0, i)[0];
-        assert_true(expf(swell) > 0); // never turned round
-        least = fminf(least, swell);
-    }
-    assert_near((double)expf(least), 0.01, 1e-4);
-    hold(s, left_finger, 0, 100);
-    panel_click(&s->session, "paint.clean");
-    assert_true(paint_is_plain(rig_of(s)->painted));
-    assert_string_equal(history_undo_label(s->session.history), "Remove paint");
-    session_key(&s->session, 'Z', MOD_CTRL);
-    assert_false(paint_is_plain(rig_of(s)->painted));
+    double delayed[3], found[3];
+    hands(s, "click paint.on");
+    assert_true(brush_of(s->editor)->on);
+    stroke(s, "Ctrl", 10);
+    hands(s, "label Delay phase");
+    survey(s, 1, delayed);
+    assert_true(delayed[MEAN] < -1e-3);
+    hands(s, "click phase.delay");
+    stroke(s, "Ctrl", 10);
+    hands(s, "label Advance phase");
+    survey(s, 1, found);
+    assert_true(fabs(found[MEAN]) < -0.1 * delayed[MEAN]); // all but what the surface moved meanwhile
+    hands(s, "click swing.less");
+    brush_of(s->editor)->strength = 1;
+    for (int i = 0; i < 6; i++) stroke(s, "", 90);
+    hands(s, "click erase.all; label Less amplitude");
+    survey(s, 0, found);
+    assert_near(exp(found[LEAST]), 0.01, 1e-4); // never turned round
+    stroke(s, "", 100);
+    hands(s, "click paint.clean");
+    assert_true(paint_is_plain(paint_of(s)));
+    hands(s, "label Remove paint; key Ctrl+Z");
+    assert_false(paint_is_plain(paint_of(s)));
 }
 
 /// Soft at the rim: half way out a moment of the brush does about half of what it does in the middle, near the rim hardly anything.
 STUDIO_TEST(a_dab_fades_towards_its_rim)
 {
-    session_key(&s->session, 'B', MOD_SHIFT);
-    brush_of(s->session.editor)->radius = 0.2;
-    hold(s, left_finger, 0, 3);
-    const struct reach *reach = &s->session.editor->stage->painting.work.reach;
+    brush_of(s->editor)->radius = 0.2;
+    stroke(s, "", 3);
+    const struct reach *reach = &s->editor->stage->painting.work.reach;
     float most = 0, radius = 0;
     for (int i = 0; i < reach->count; i++) {
         const int vertex = reach->vertices[i];
@@ -245,26 +204,24 @@ STUDIO_TEST(a_dab_fades_towards_its_rim)
 /// stroke goes on from there.
 STUDIO_TEST(a_long_stroke_saturates)
 {
-    session_key(&s->session, 'B', MOD_SHIFT);
-    brush_of(s->session.editor)->strength = 1;
-    for (int stroke = 1; stroke <= 2; stroke++) {
-        hold(s, left_finger, 0, 120);
-        float most = 0;
-        for (int i = 0; i < s->plain->character.vertex_count; i++) most = fmaxf(most, value_of(s, 0, i)[1]);
-        if (stroke == 1) assert_near((double)most, 1.5707963, 0.02);
-        if (stroke == 2) assert_true(most > 2 && most < 3.1416f); // the surface has moved under the pointer
-    }
-    panel_click(&s->session, "swing.more");
-    hold(s, left_finger, MOD_CTRL, 120);
-    float least = 0;
-    for (int i = 0; i < s->plain->character.vertex_count; i++) least = fminf(least, value_of(s, 0, i)[0]);
-    assert_near((double)expf(least), 0.25, 0.02);
+    double found[3];
+    brush_of(s->editor)->strength = 1;
+    stroke(s, "", 120);
+    survey(s, 1, found);
+    assert_near(found[MOST], 1.5707963, 0.02);
+    stroke(s, "", 120);
+    survey(s, 1, found);
+    assert_true(found[MOST] > 2 && found[MOST] < 3.1416); // the surface has moved under the pointer
+    hands(s, "click swing.more");
+    stroke(s, "Ctrl", 120);
+    survey(s, 0, found);
+    assert_near(exp(found[LEAST]), 0.25, 0.02);
 }
 
 /// Sum over all edges of the finger's middle of how much Ñ' differs in phase and in the logarithm of amplitude.
-static void variation(const struct studio *s, double sum[2])
+static void variation(const struct session *s, double sum[2])
 {
-    const struct figure *figure = models_figure(s->models, 0);
+    const struct figure *figure = models_figure(s->work.models, 0);
     const struct coordinate *c = &figure->character.coordinates[0];
     sum[0] = sum[1] = 0;
     for (int i = 0; i < figure->character.vertex_count; i++) {
@@ -281,9 +238,9 @@ static void variation(const struct studio *s, double sum[2])
 }
 
 /// Random paint, phases all around the circle's seam.
-static void make_rough(struct studio *s)
+static void make_rough(struct session *s)
 {
-    const int count = s->plain->character.vertex_count;
+    const int count = plain->character.vertex_count;
     int *vertices = malloc((size_t)count * sizeof *vertices);
     float(*values)[2] = malloc((size_t)count * sizeof *values);
     uint32_t seed = 4711;
@@ -297,29 +254,28 @@ static void make_rough(struct studio *s)
         values[i][1] += 3.14159265f;
     }
     const struct dab dab = {0, count, vertices, (const float(*)[2])values};
-    history_begin(s->session.history, "Rough", 0);
-    assert_done(edit_paint_new(s->session.document, 0, 2, count, &error));
-    assert_done(edit_paint(s->session.document, 0, &dab, &error));
-    history_end(s->session.history);
+    history_begin(s->history, "Rough", 0);
+    assert_done(edit_paint_new(s->document, 0, 2, count, &error));
+    assert_done(edit_paint(s->document, 0, &dab, &error));
+    history_end(s->history);
     free(vertices);
     free(values);
 }
 
 STUDIO_TEST(smoothing_reduces_variation)
 {
-    make_rough(s);
-    frame(s);
     double rough[2], even[2], calm[2];
+    make_rough(s);
+    session_frame(s);
     variation(s, rough);
-    session_key(&s->session, 'B', MOD_SHIFT);
-    brush_of(s->session.editor)->radius = 0.25;
-    hold(s, left_finger, MOD_SHIFT, 30); // advance, with Shift
-    assert_string_equal(history_undo_label(s->session.history), "Smooth phase");
+    brush_of(s->editor)->radius = 0.25;
+    stroke(s, "Shift", 30); // advance, with Shift
+    hands(s, "label Smooth phase");
     variation(s, even);
     assert_true(even[0] < 0.3 * rough[0]);
     assert_near(even[1], rough[1], 1e-3 * rough[1]); // amplitudes stay
-    panel_click(&s->session, "swing.smooth");
-    hold(s, left_finger, 0, 30);
+    hands(s, "click swing.smooth");
+    stroke(s, "", 30);
     variation(s, calm);
     assert_true(calm[1] < 0.3 * rough[1]);
     assert_near(calm[0], even[0], 1e-3 * rough[0]);
@@ -328,69 +284,57 @@ STUDIO_TEST(smoothing_reduces_variation)
 /// A drag of the brush's numbers is no edit, so that no undo step restores them.
 STUDIO_TEST(esc_takes_back_the_brushs_radius_and_strength)
 {
-    static const char *const names[] = {"radius", "strength"};
-    const struct brush *brush = brush_of(s->session.editor);
-    session_key(&s->session, 'B', MOD_SHIFT);
-    for (int i = 0; i < 2; i++) {
-        const struct brush before = *brush;
-        panel_drag(&s->session, names[i], 49);
-        assert_near(i == 0 ? brush->radius : brush->strength, 0.49, 0.01);
-        session_key(&s->session, KEY_ESCAPE, 0);
-        panel_release(&s->session);
-        assert_near(brush->radius, before.radius, 0);
-        assert_near(brush->strength, before.strength, 0);
-        assert_true(brush->on);
-    }
+    const struct brush *brush = brush_of(s->editor), before = *brush;
+    hands(s, "slide radius 49");
+    assert_near(brush->radius, 0.49, 0.01);
+    hands(s, "key Escape; release");
+    assert_near(brush->radius, before.radius, 0);
+    hands(s, "slide strength 49");
+    assert_near(brush->strength, 0.49, 0.01);
+    hands(s, "key Escape; release");
+    assert_near(brush->strength, before.strength, 0);
+    assert_true(brush->on);
 }
 
-STUDIO_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
+SESSION_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns, open_studio(s, false))
 {
-    struct editor *editor = s->session.editor;
-    assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
-    session_key(&s->session, 'B', MOD_SHIFT);
-    frame(s);
-    assert_int_equal(editor->stage->view.characters[0].map_coordinate, 0);
-    assert_int_equal(editor->stage->view.characters[0].map_axis, 0); // it moves along x most
-    session_point(&s->session, left_finger);
-    frame(s);
-    assert_true(editor->stage->painting.covers);
-    const double radius = brush_of(editor)->radius, strength = brush_of(editor)->strength;
-    const float distance = camera_of(editor)->distance;
-    s->session.mods = MOD_CTRL;
-    session_wheel(&s->session, 1);
-    s->session.mods = MOD_SHIFT;
-    session_wheel(&s->session, -1);
-    s->session.mods = 0;
-    assert_true(brush_of(editor)->radius > radius && brush_of(editor)->strength < strength);
-    assert_near((double)camera_of(editor)->distance, (double)distance, 0);
-    const float azimuth = camera_of(editor)->azimuth;
-    session_point(&s->session, "stage(0.95,0.5)");
-    session_press(&s->session, BUTTON_LEFT, 1);
-    session_drag(&s->session, -40, 0, 4);
-    session_release(&s->session, BUTTON_LEFT);
-    assert_true(camera_of(editor)->azimuth != azimuth);
-    assert_int_equal((int)history_count(s->session.history), 0);
-    session_key(&s->session, KEY_ESCAPE, 0);
-    frame(s);
-    assert_false(brush_of(editor)->on);
-    assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
+    const struct stage *stage = s->editor->stage;
+    const struct camera *camera = camera_of(s->editor);
+    const struct brush *brush = brush_of(s->editor);
+    assert_int_equal(stage->view.characters[0].map_coordinate, -1);
+    hands(s, "key Shift+B; wait 1");
+    assert_int_equal(stage->view.characters[0].map_coordinate, 0);
+    assert_int_equal(stage->view.characters[0].map_axis, 0); // it moves along x most
+    hands(s, "hover " LEFT);
+    assert_true(stage->painting.covers);
+    const double radius = brush->radius, strength = brush->strength;
+    const float distance = camera->distance, azimuth = camera->azimuth;
+    hands(s, "with Ctrl; wheel 1; with Shift; wheel -1; with");
+    assert_true(brush->radius > radius && brush->strength < strength);
+    assert_near(camera->distance, distance, 0);
+    hands(s, "carry stage(0.95,0.5) -40 0");
+    assert_true(camera->azimuth != azimuth);
+    assert_int_equal((int)history_count(s->history), 0);
+    hands(s, "key Escape; wait 1");
+    assert_false(brush->on);
+    assert_int_equal(stage->view.characters[0].map_coordinate, -1);
 }
 
 /// A press that is released before a frame came paints all the same; paint for another model is left alone.
 STUDIO_TEST(a_click_paints_and_foreign_paint_is_left_alone)
 {
-    session_key(&s->session, 'B', MOD_SHIFT);
-    session_point(&s->session, left_finger);
-    session_click_here(&s->session, 1);
-    assert_true(mean_lead(s) > 0);
-    history_begin(s->session.history, "Foreign", 0);
-    assert_done(edit_paint_new(s->session.document, 0, 5, 7, &error));
-    history_end(s->session.history);
-    const uint64_t version = rig_of(s)->painted->version;
-    frame(s);
-    hold(s, left_finger, 0, 5);
-    assert_int_equal(rig_of(s)->painted->version, version);
-    assert_int_equal((int)history_count(s->session.history), 2);
+    double found[3];
+    hands(s, "click " LEFT);
+    survey(s, 1, found);
+    assert_true(found[MEAN] > 0);
+    history_begin(s->history, "Foreign", 0);
+    assert_done(edit_paint_new(s->document, 0, 5, 7, &error));
+    history_end(s->history);
+    const uint64_t version = paint_of(s)->version;
+    session_frame(s);
+    stroke(s, "", 5);
+    assert_int_equal(paint_of(s)->version, version);
+    assert_int_equal((int)history_count(s->history), 2);
 }
 
 /// On a ball the way over the surface is radius times angle.
