@@ -31,6 +31,14 @@
 
 #include "session.h"
 
+/// A knot of a scene's text.
+#define K(frame, value) "{\"frame\": " #frame ", \"value\": " #value "}"
+
+/// What is drawn: EACH_DRAWN(c, s->editor) { … c->kind … }.
+#define EACH_DRAWN(c, editor)                                                                                        \
+    for (const struct draw_command *c = drawn_by(editor)->commands, *end_##c = c + drawn_by(editor)->count;          \
+         c < end_##c; c++)
+
 /// Plays the steps; fails with the first that is not so.
 void hands(struct session *s, const char *steps, ...) __attribute__((format(printf, 2, 3)));
 

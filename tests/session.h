@@ -22,7 +22,7 @@ struct session {
     bool finger;          ///< is the pointer
     char **saved;         ///< texts returned by session_saved()
     int saved_count;
-    const char *kept;     ///< the text that hands() keeps
+    const char *kept; ///< the text that hands() keeps
 };
 
 /// Keeps a request for the test, which answers it later.
@@ -224,12 +224,34 @@ static inline void assert_one_step(struct session *session, const char *original
     assert_saved(session, changed);
 }
 
-/// Opens a scene given as text and shows its first frame (1280×720, paused). Fails the test on errors.
+/// The document of a scene in which ' may be written for " and <10 0.5> for a knot with this frame and value.
+static inline struct document *document_of_scene(const char *scene)
+{
+    char *json = malloc(6 * strlen(scene) + 1), *end = json;
+    bool in_string = false, in_knot = false;
+    assert_non_null(json);
+    for (; *scene; scene++) {
+        const char *more = *scene == '\'' ? "\"" : *scene == '<' ? "{\"frame\": " : *scene == '>' ? "}" : NULL;
+        in_string ^= *scene == '"';
+        in_knot = *scene != '>' && (in_knot || *scene == '<');
+        if (in_knot && *scene == ' ') more = ", \"value\": ";
+        if (more && !in_string)
+            end = stpcpy(end, more);
+        else
+            *end++ = *scene;
+    }
+    *end = '\0';
+    struct document *document = document_of_text(json);
+    free(json);
+    return document;
+}
+
+/// Opens a scene given as text, as in document_of_scene(), and shows its first frame (1280×720, paused). Fails the test on errors.
 static inline void session_open(struct session *session, const char *scene)
 {
     memset(session, 0, sizeof *session);
     font_init();
-    session->document = document_of_text(scene);
+    session->document = document_of_scene(scene);
     session->history = history_create(session->document);
     assert_non_null(session->history);
     session->editor = editor_create(&(struct editor_app){.user = session, .carry_out = session_carry_out});

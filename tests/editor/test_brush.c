@@ -48,10 +48,9 @@ static void open_studio(struct session *s, bool takes_brush)
 {
     char scene[700];
     snprintf(scene, sizeof scene,
-             "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"start\": "
-             "\"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": ["
-             "{\"type\": \"character\", \"name\": \"hand\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", "
-             "\"spline\": \"s\"}]}]}",
+             "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 's', 'frequency': 1, 'start': 'loop', 'knots': "
+             "[<0 1>, <20 -1>]}], 'rigs': [{'type': 'character', 'name': 'hand', 'model': '%s', 'coordinates': "
+             "[{'name': 'a', 'spline': 's'}]}]}",
              folder_path("hand.glb"));
     plain = models_figure(panel_open_models(s, scene), 0);
     if (playback_of(s->editor)->playing) hands(s, "key Space");

@@ -100,31 +100,29 @@ SESSION_TEST(double_click_on_the_curve_keeps_it, session_open(s, FIVE))
 /// and a cubic is held, until a knot is there. With wind-up the curve swings freely until half a period before a knot.
 TEST(a_knot_on_the_curve_keeps_it)
 {
-#define SWINGS "\"frequency\": 1.3, \"damping\": 0.1, "
-#define MOVES "\"equilibrium\": {\"spline\": \"y\"}"
+#define SWINGS "'frequency': 1.3, 'damping': 0.1, "
+#define MOVES "'equilibrium': {'spline': 'y'}"
     static const struct kind {
         const char *settings;
         int last; ///< frame of a knot
         double change;
         bool swings; ///< else there is no phase that a pose could hold
     } kinds[] = {
-        {"\"mode\": \"real\", \"frequency\": 1", 95, 1e-6, false},
-        {"\"mode\": \"real\", \"spring\": 30, \"friction\": 14, " MOVES, 95, 1e-6, false},
-        {"\"mode\": \"cubic\", " MOVES, 49, 1e-6, false},
-        {SWINGS "\"start\": \"rest\"", 49, 1e-6, true},
+        {"'mode': 'real', 'frequency': 1", 95, 1e-6, false},
+        {"'mode': 'real', 'spring': 30, 'friction': 14, " MOVES, 95, 1e-6, false},
+        {"'mode': 'cubic', " MOVES, 49, 1e-6, false},
+        {SWINGS "'start': 'rest'", 49, 1e-6, true},
         {SWINGS MOVES, 49, 1e-6, true},
-        {SWINGS MOVES ", \"start\": \"loop\"", 95, 1e-6, true},
-        {SWINGS MOVES ", \"passive\": \"filter\"", 95, 1e-6, true},
-        {SWINGS "\"wind_up\": 0.5", 35, 5e-3, true},
+        {SWINGS MOVES ", 'start': 'loop'", 95, 1e-6, true},
+        {SWINGS MOVES ", 'passive': 'filter'", 95, 1e-6, true},
+        {SWINGS "'wind_up': 0.5", 35, 5e-3, true},
     };
     for (const struct kind *kind = kinds; kind < kinds + sizeof kinds / sizeof *kinds; kind++) {
         char scene[1024];
         struct session session, *const s = &session;
         snprintf(scene, sizeof scene,
-                 "{\"frames\": [0, 96], \"splines\": [{\"name\": \"x\", %s, \"knots\": [{\"frame\": 0, \"value\": "
-                 "0}, {\"frame\": 20, \"value\": 1}, {\"frame\": 50, \"value\": -0.4}]}, {\"name\": \"y\", \"mode\": "
-                 "\"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 60, "
-                 "\"value\": 1}]}]}",
+                 "{'frames': [0, 96], 'splines': [{'name': 'x', %s, 'knots': [<0 0>, <20 1>, <50 -0.4>]}, {'name': "
+                 "'y', 'mode': 'cubic', 'start': 'loop', 'knots': [<10 0>, <60 1>]}]}",
                  kind->settings);
         session_open(s, scene);
         for (int frame = 5; frame <= kind->last; frame += 30) {
@@ -185,11 +183,11 @@ SESSION_TEST(every_knot_is_drawn, session_open(s, FIVE))
 TEST(labels_never_overlap)
 {
     char scene[4096];
-    size_t at = (size_t)snprintf(scene, sizeof scene, "{\"wiggly\":1,\"frames\":[0,48],\"splines\":[");
+    size_t at = (size_t)snprintf(scene, sizeof scene, "{'wiggly':1,'frames':[0,48],'splines':[");
     for (int i = 0; i < 12; i++) {
-        at += (size_t)snprintf(scene + at, sizeof scene - at,
-                               "%s{\"name\":\"s%d\",\"mode\":\"cubic\",\"knots\":[{\"frame\":%d,\"value\":1}]}",
-                               i ? "," : "", i, i);
+        at +=
+            (size_t)snprintf(scene + at, sizeof scene - at,
+                             "%s{'name':'s%d','mode':'cubic','knots':[{'frame':%d,'value':1}]}", i ? "," : "", i, i);
     }
     snprintf(scene + at, sizeof scene - at, "]}");
     struct session s;
@@ -260,13 +258,12 @@ static void assert_in_sight(struct session *s, const char *after)
 }
 
 /// A found frequency, a chosen feel and a roll of the dice may swing far beyond what was seen. The scene that the program begins with.
-SESSION_TEST(the_view_follows_another_feel,
-             panel_open(s,
-                        "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": "
-                        "1, \"damping\": 0.08, \"bandwidth\": 0.08, \"start\": \"loop\", \"knots\": [{\"frame\": 8, "
-                        "\"value\": 1}, {\"frame\": 20, \"value\": -1.1}, {\"frame\": 56, \"value\": 0.4}, "
-                        "{\"frame\": 82, \"value\": 0.2}, {\"frame\": 100, \"value\": -0.6}]}]}",
-                        1280, 2400))
+SESSION_TEST(
+    the_view_follows_another_feel,
+    panel_open(s,
+               "{'wiggly': 1, 'frames': [0, 120], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.08, "
+               "'bandwidth': 0.08, 'start': 'loop', 'knots': [<8 1>, <20 -1.1>, <56 0.4>, <82 0.2>, <100 -0.6>]}]}",
+               1280, 2400))
 {
     assert_in_sight(s, "key Shift+F");
     assert_in_sight(s, "click preset.antenna");
@@ -284,11 +281,9 @@ SESSION_TEST(the_view_follows_a_longer_scene, session_open(s, FIVE))
 }
 
 /// The active spline's imaginary part, too, is inside of the panel at first.
-SESSION_TEST(
-    all_that_is_drawn_is_framed,
-    session_open(s, "{\"wiggly\": 1, \"frames\": [0, 3], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-                    "\"damping\": 0.02, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 1, \"value\": 0.3},"
-                    "{\"frame\": 2, \"value\": 0.58}]}]}"))
+SESSION_TEST(all_that_is_drawn_is_framed,
+             session_open(s, "{'wiggly': 1, 'frames': [0, 3], 'splines': [{'name': 'sway', 'frequency': 1,'damping': "
+                             "0.02, 'knots': [<0 0>, <1 0.3>,<2 0.58>]}]}"))
 {
     const struct curve_cache *cache = &s->editor->curves->cache;
     const struct rect *plot = &layout_of(s->editor)->plot;
@@ -319,10 +314,8 @@ static int find_bands(const struct session *s, double ends[4][2])
 
 /// The wind-up before a selected knot is a band: half a period, no longer than to the knot before, in a loop also round the seam.
 SESSION_TEST(the_wind_up_of_a_selected_knot_is_a_band,
-             session_open(s,
-                          "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-                          "\"wind_up\": 0.5, \"start\": \"loop\", \"knots\": [{\"frame\": 4, \"value\": 0},"
-                          "{\"frame\": 40, \"value\": 1}, {\"frame\": 47, \"value\": -1}]}]}"))
+             session_open(s, "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': "
+                             "1,'wind_up': 0.5, 'start': 'loop', 'knots': [<4 0>,<40 1>, <47 -1>]}]}"))
 {
     static const double expected[][2][2] = {{{0, 4}, {88, 96}}, {{28, 40}}, {{40, 47}}};
     double ends[4][2];
@@ -354,12 +347,11 @@ static void open_crowd(struct session *s, int knots)
     char *scene = malloc(room);
     assert_non_null(scene);
     size_t at = (size_t)sprintf(scene,
-                                "{\"wiggly\": 1, \"frames\": [0, %d], \"splines\": [{\"name\": \"few\", \"knots\": "
-                                "[{\"frame\": 3, \"value\": 2}, {\"frame\": 9, \"value\": 1}]}, {\"name\": \"many\", "
-                                "\"mode\": \"cubic\", \"knots\": [",
+                                "{'wiggly': 1, 'frames': [0, %d], 'splines': [{'name': 'few', 'knots': [<3 2>, <9 "
+                                "1>]}, {'name': 'many', 'mode': 'cubic', 'knots': [",
                                 knots);
     for (int k = 0; k < knots; k++)
-        at += (size_t)sprintf(scene + at, "%s{\"frame\": %d, \"value\": %d}", k ? "," : "", k, k * 7919 % 1009);
+        at += (size_t)sprintf(scene + at, "%s{'frame': %d, 'value': %d}", k ? "," : "", k, k * 7919 % 1009);
     strcpy(scene + at, "]}]}");
     panel_open(s, scene, 1280, 900);
     activate(s->editor, 1);
@@ -441,10 +433,10 @@ SESSION_TEST(a_crowd_is_drawn_as_columns, open_crowd(s, CROWD))
 static void open_crowded(struct session *s, int knots, int gap, const int *values, int period)
 {
     static char scene[400000];
-    char *end = scene + sprintf(scene, "{\"wiggly\":1,\"frames\":[0,%d],\"splines\":[{\"name\":\"sway\",\"knots\":[",
-                                knots * gap);
+    char *end =
+        scene + sprintf(scene, "{'wiggly':1,'frames':[0,%d],'splines':[{'name':'sway','knots':[", knots * gap);
     for (int i = 0; i < knots; i++)
-        end += sprintf(end, "%s{\"frame\":%d,\"value\":%d}", i ? "," : "", gap * i, values[i % period]);
+        end += sprintf(end, "%s{'frame':%d,'value':%d}", i ? "," : "", gap * i, values[i % period]);
     strcpy(end, "]}]}");
     session_open(s, scene);
 }

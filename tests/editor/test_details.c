@@ -6,11 +6,9 @@
 #include "ui/widgets.h"
 
 static const char tail[] =
-    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
-    "[{\"frame\": 0, \"value\": 0.8}, {\"frame\": 40, \"value\": -1}]},{\"name\": \"lift\", \"frequency\": 0.5, "
-    "\"knots\": [{\"frame\": 20, \"value\": 0.4}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", "
-    "\"channels\": [{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\", \"gain\": "
-    "3}]}]}";
+    "{'wiggly': 1, 'frames': [0, 120], 'splines': [{'name': 'sway', 'frequency': 1, 'knots': [<0 0.8>, <40 "
+    "-1>]},{'name': 'lift', 'frequency': 0.5, 'knots': [<20 0.4>]}], 'rigs': [{'type': 'tail', 'name': 'tail', "
+    "'channels': [{'spline': 'sway', 'axis': 'side'}, {'spline': 'lift', 'axis': 'up', 'gain': 3}]}]}";
 
 /// How many frames a pixel is wide.
 static double frames_wide(const struct session *s) { return 1 / (double)(x_of(s->editor, 1) - x_of(s->editor, 0)); }
@@ -32,11 +30,10 @@ SESSION_TEST(notches_of_the_wheel_add_up, session_open(s, tail))
 /// More splines than the window is high: the wheel turns the open list, wherever on it the pointer is.
 TEST(a_long_list_turns_by_wheel)
 {
-    static char scene[8000] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [";
-    for (int i = 0; i < 60; i++)
-        sprintf(scene + strlen(scene), "%s{\"name\": \"s%d\", \"knots\": []}", i ? "," : "", i);
+    static char scene[8000] = "{'wiggly': 1, 'frames': [0, 48], 'splines': [";
+    for (int i = 0; i < 60; i++) sprintf(scene + strlen(scene), "%s{'name': 's%d', 'knots': []}", i ? "," : "", i);
     struct session session, *const s = &session;
-    panel_open(s, strcat(scene, "], \"rigs\": []}"), 1280, 600);
+    panel_open(s, strcat(scene, "], 'rigs': []}"), 1280, 600);
     hands(s, "click follow.frequency; finds item.s1; lacks item.s59; point item.s3");
     for (int i = 0; i < 20; i++) session_wheel(s, -5);
     hands(s, "finds item.s59; lacks item.s1");
@@ -115,10 +112,8 @@ SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
 }
 
 WALK(nothing_to_follow_is_an_error,
-     panel_open(s,
-                "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"alone\", \"knots\": []}], "
-                "\"rigs\": []}",
-                1280, 720),
+     panel_open(s, "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'alone', 'knots': []}], 'rigs': []}", 1280,
+                720),
      "click follow.frequency; error no other spline for alone to follow")
 
 /// What a recording names and the scene does not have is said.

@@ -3,11 +3,10 @@
 #include "hands.h"
 #include "panel_session.h"
 
-static const char tail_scene[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [" PANEL_SPLINES "],"
-    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"rest\": [4, -2, 1], \"channels\": ["
-    "{\"spline\": \"sway\", \"axis\": \"side\", \"lag\": 6.5, \"gain\": {\"ramp\": [[0, 3], [1, 9]]}},"
-    "{\"spline\": \"lift\", \"axis\": \"up\", \"lag\": 5, \"gain\": [1, 2, 3]}]}]}";
+static const char tail_scene[] = "{'wiggly': 1, 'frames': [0, 96], 'splines': [" PANEL_SPLINES
+                                 "],'rigs': [{'type': 'tail', 'name': 'tail', 'joints': 3, 'rest': [4, -2, 1], "
+                                 "'channels': [{'spline': 'sway', 'axis': 'side', 'lag': 6.5, 'gain': {'ramp': [[0, "
+                                 "3], [1, 9]]}},{'spline': 'lift', 'axis': 'up', 'lag': 5, 'gain': [1, 2, 3]}]}]}";
 
 static const struct tail *tail_of(const struct session *s) { return document_tail(s->document, 0); }
 
@@ -21,18 +20,14 @@ SESSION_TEST(a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
 }
 
 static const char limb_scene[] =
-    "{\"frames\": [0, 96], \"splines\": ["
-    "{\"name\": \"bend\", \"frequency\": 1.1, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 1}]},"
-    "{\"name\": \"lift\", \"frequency\": 1.4, \"damping\": 0.1, \"wind_up\": 0.5, \"knots\": []},"
-    "{\"name\": \"led\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": []},"
-    "{\"name\": \"still\", \"mode\": \"real\", \"frequency\": 0, \"damping\": 1.2, \"knots\": []},"
-    "{\"name\": \"breath\", \"frequency\": 0.5, \"damping\": 0.1, \"knots\": []},"
-    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 2}]}],"
-    "\"rigs\": [{\"type\": \"tail\", \"name\": \"brush\", \"joints\": 3, \"channels\": ["
-    "{\"spline\": \"bend\", \"axis\": \"side\", \"lag\": 6}, {\"spline\": \"lift\", \"axis\": \"up\", \"lag\": [1, "
-    "-4, 2]},"
-    "{\"spline\": \"led\", \"axis\": \"up\", \"lag\": 0}, {\"spline\": \"still\", \"axis\": \"side\", \"lag\": 3},"
-    "{\"spline\": \"breath\", \"axis\": \"breath\", \"lag\": 2}]}]}";
+    "{'frames': [0, 96], 'splines': [{'name': 'bend', 'frequency': 1.1, 'damping': 0.1, 'knots': [<0 1>]},{'name': "
+    "'lift', 'frequency': 1.4, 'damping': 0.1, 'wind_up': 0.5, 'knots': []},{'name': 'led', 'frequency': {'spline': "
+    "'pace'}, 'damping': 0.2, 'knots': []},{'name': 'still', 'mode': 'real', 'frequency': 0, 'damping': 1.2, "
+    "'knots': []},{'name': 'breath', 'frequency': 0.5, 'damping': 0.1, 'knots': []},{'name': 'pace', 'mode': "
+    "'cubic', 'knots': [<0 2>]}],'rigs': [{'type': 'tail', 'name': 'brush', 'joints': 3, 'channels': [{'spline': "
+    "'bend', 'axis': 'side', 'lag': 6}, {'spline': 'lift', 'axis': 'up', 'lag': [1, -4, 2]},{'spline': 'led', "
+    "'axis': 'up', 'lag': 0}, {'spline': 'still', 'axis': 'side', 'lag': 3},{'spline': 'breath', 'axis': 'breath', "
+    "'lag': 2}]}]}";
 
 /// Of bend, lift, led, still and breath. Ratios stay, 0 and what follows a spline too; a preset keeps the ratios of frequencies alone.
 TEST(a_weight_is_the_limbs)
@@ -147,11 +142,11 @@ SESSION_TEST(selecting_knots_moves_nothing, panel_open(s, tail_scene, 1280, 1600
 // --- the dice, and the frequency of knots ---
 
 /// Extrema of 1.25 Hz, 24 frames a second, and more.
-#define EXTREMA "{\"frame\": 5, \"value\": 1}, {\"frame\": 15, \"value\": -0.9}, {\"frame\": 24, \"value\": 0.8}"
+#define EXTREMA "<5 1>, <15 -0.9>, <24 0.8>"
 #define EXTREME(more)                                                                                                \
-    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 3, \"damping\": 0.4, "  \
-    "\"knots\": [" EXTREMA more "]}]}"
-#define SWINGING EXTREME(", {\"frame\": 34, \"value\": -0.7}, {\"frame\": 43, \"value\": 0.62}")
+    "{'wiggly': 1, 'frames': [0, 120], 'splines': [{'name': 'sway', 'frequency': 3, 'damping': 0.4, "                \
+    "'knots': [" EXTREMA more "]}]}"
+#define SWINGING EXTREME(", <34 -0.7>, <43 0.62>")
 
 WALK(a_key_finds_the_frequency, session_open(s, SWINGING),
      "wait 1; keep; key Shift+F; wait 1; sway.frequency 1.26 ~0.06; sway.damping < 0.1; key Ctrl+Z; kept")
@@ -173,20 +168,17 @@ SESSION_TEST(the_dice_rolls_another_motion, panel_open(s, SWINGING, 1280, 1200))
 }
 
 WALK(the_file_has_both_numbers_and_what_else_is_there,
-     session_open(s, "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"a\", \"frequency\": 1, "
-                     "\"variation\": {\"seed\": 7, \"amount\": 0.3, \"mood\": \"mild\"}, \"knots\": []}]}"),
+     session_open(s, "{'wiggly': 1, 'frames': [0, 24], 'splines': [{'name': 'a', 'frequency': 1, 'variation': "
+                     "{'seed': 7, 'amount': 0.3, 'mood': 'mild'}, 'knots': []}]}"),
      "saves \"variation\": { \"seed\": 7, \"amount\": 0.3, \"mood\": \"mild\" }")
 
 // --- poles ---
 
 static const char POLES[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": ["
-    "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"bandwidth\": 0.1234, \"knots\": ["
-    "  {\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]},"
-    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}]},"
-    "{\"name\": \"pluck\", \"mode\": \"real\", \"frequency\": 1, \"damping\": 0.08},"
-    "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": ["
-    "  {\"frame\": 10, \"value\": 1}]}], \"rigs\": []}";
+    "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'bandwidth': "
+    "0.1234, 'knots': [  <0 0>, <36 1>]},{'name': 'pace', 'mode': 'cubic', 'knots': [<0 1>]},{'name': 'pluck', "
+    "'mode': 'real', 'frequency': 1, 'damping': 0.08},{'name': 'lift', 'frequency': {'spline': 'pace'}, 'damping': "
+    "0.2, 'knots': [  <10 1>]}], 'rigs': []}";
 
 static void open_poles(struct session *s, int spline)
 {
@@ -360,22 +352,17 @@ static void open_file(struct session *s, const char *scene)
     hands(s, "wait 2");
 }
 
-SESSION_TEST(
-    every_control_of_characters_explains_itself,
-    open_file(
-        s,
-        "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
-        "\"value\": 1}]}], \"rigs\": ["
-        "{\"type\": \"character\", \"model\": \"assets/models/creature.glb\", \"coordinates\": "
-        "[{\"name\": \"up\", \"spline\": \"s\"}], \"pins\": [{\"frame\": 4, \"vertex\": 9, \"to\": [0, 1, 0]}]}]}"))
+SESSION_TEST(every_control_of_characters_explains_itself,
+             open_file(s, "{'frames': [0, 48], 'splines': [{'name': 's', 'frequency': 1, 'knots': [<0 1>]}], 'rigs': "
+                          "[{'type': 'character', 'model': 'assets/models/creature.glb', 'coordinates': [{'name': "
+                          "'up', 'spline': 's'}], 'pins': [{'frame': 4, 'vertex': 9, 'to': [0, 1, 0]}]}]}"))
 {
     hands(s, "key Shift+B");
     assert_all_explained(s);
     session_close(s);
-    open_file(s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
-                 "\"value\": 1}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"dog\", \"model\": "
-                 "\"assets/models/dog.glb\"}, {\"type\": \"chain\", \"name\": \"ear\", \"model\": \"dog\", \"from\": "
-                 "\"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": [{\"spline\": \"s\"}]}]}");
+    open_file(s, "{'frames': [0, 48], 'splines': [{'name': 's', 'frequency': 1, 'knots': [<0 1>]}], 'rigs': "
+                 "[{'type': 'model', 'name': 'dog', 'model': 'assets/models/dog.glb'}, {'type': 'chain', 'name': "
+                 "'ear', 'model': 'dog', 'from': 'ear_1_L', 'to': 'ear_2_L', 'channels': [{'spline': 's'}]}]}");
     hands(s, "key J");
     assert_all_explained(s);
 }

@@ -1,14 +1,12 @@
 /// Knots by hand: inserted, selected, dragged, nudged, scaled and sloped, of one curve and of several, in the plot, in the dope sheet and on the
-/// clipboard. And a monkey.
+/// clipboard.
 #include "five_knots.h"
 #include "hands.h"
 #include "scene/knots.h"
 
 static const char SWAY[] =
-    "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-    "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 12, \"value\": 1},"
-    "{\"frame\": 24, \"value\": -1}, {\"frame\": 36, \"value\": 0.5}]}, {\"name\": \"up\","
-    "\"mode\": \"cubic\", \"knots\": [{\"frame\": 6, \"value\": 0.25}]}]}";
+    "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'frequency': 1,'damping': 0.1, 'knots': [<0 0>, "
+    "<12 1>,<24 -1>, <36 0.5>]}, {'name': 'up','mode': 'cubic', 'knots': [<6 0.25>]}]}";
 
 WALK(a_double_click_inserts_at_the_pointer, session_open(s, SWAY),
      "click curve(sway,30,1.1); again; sway.frame 0 12 24 30 36; sway.3.value 1.1 ~1e-5;"
@@ -129,31 +127,25 @@ WALK(a_handle_does_not_flip, session_open(s, FIVE),
 
 /// Of handles that nearly touch the one under the pointer is pulled.
 WALK(the_nearest_handle_is_pulled,
-     session_open(s, "{\"wiggly\": 1, \"frames\": [0, 240], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-                     "\"damping\": 0.1, \"knots\": [{\"frame\": 100, \"value\": 0, \"slope\": 0}, {\"frame\": 101, "
-                     "\"value\": 0, \"slope\": 0}]}]}"),
+     session_open(s, "{'wiggly': 1, 'frames': [0, 240], 'splines': [{'name': 'sway', 'frequency': 1,'damping': 0.1, "
+                     "'knots': [{'frame': 100, 'value': 0, 'slope': 0}, {'frame': 101, 'value': 0, 'slope': 0}]}]}"),
      "key Ctrl+A; carry handle(sway,0,1) 0 -60 5; sway.0.slope > 0.1; sway.1.slope 0 ~0; key Ctrl+Z;"
      "carry handle(sway,1,1) 0 -60 5; sway.1.slope > 0.1; sway.0.slope 0 ~0")
 
 /// The slope that a curve has does not change it, in a loop that swings about a moving equilibrium with a varying frequency, too.
 WALK(a_slope_of_a_varying_loop_is_the_curves,
-     session_open(s,
-                  "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"start\": \"loop\","
-                  "\"frequency\": {\"spline\": \"pace\"}, \"equilibrium\": {\"spline\": \"base\"},"
-                  "\"knots\": [{\"frame\": 8, \"value\": 1}, {\"frame\": 30, \"value\": -1}]},"
-                  "{\"name\": \"pace\", \"mode\": \"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 0, "
-                  "\"value\": 1}, {\"frame\": 24, \"value\": 2}]}, {\"name\": \"base\", \"mode\": \"cubic\", "
-                  "\"start\": \"loop\", \"knots\": [{\"frame\": 5, \"value\": 0}, {\"frame\": 20, \"value\": 1}]}]}"),
+     session_open(s, "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'start': 'loop','frequency': "
+                     "{'spline': 'pace'}, 'equilibrium': {'spline': 'base'},'knots': [<8 1>, <30 -1>]},{'name': "
+                     "'pace', 'mode': 'cubic', 'start': 'loop', 'knots': [<0 1>, <24 2>]}, {'name': 'base', 'mode': "
+                     "'cubic', 'start': 'loop', 'knots': [<5 0>, <20 1>]}]}"),
      "keep; key Ctrl+A T; sway.sloped 1 1; sway.0.slope ! 0; steady 1e-4") // slopes are rounded
 
 // --- several curves at once ---
 
 static const char THREE[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,\"damping\": 0.1, "
-    "\"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 20, \"value\": 1},{\"frame\": 30, \"value\": -1}, "
-    "{\"frame\": 60, \"value\": 0}]},{\"name\": \"up\", \"mode\": \"cubic\", \"limits\": [-50, 60], \"knots\": "
-    "[{\"frame\": 20, \"value\": 0.5},{\"frame\": 40, \"value\": -0.5}]},{\"name\": \"far\", \"mode\": \"cubic\", "
-    "\"knots\": [{\"frame\": 22, \"value\": 0.2}]}]}";
+    "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1,'damping': 0.1, 'knots': [<10 0>, "
+    "<20 1>,<30 -1>, <60 0>]},{'name': 'up', 'mode': 'cubic', 'limits': [-50, 60], 'knots': [<20 0.5>,<40 "
+    "-0.5>]},{'name': 'far', 'mode': 'cubic', 'knots': [<22 0.2>]}]}";
 
 /// A box around 20 of sway and up and 22 of far, and one that takes 30 of sway, too.
 #define BOX "box curve(sway,17,1.1) curve(sway,26,0.1);"
@@ -331,11 +323,10 @@ SESSION_TEST(rows_choose_and_insert, session_open(s, THREE))
 /// Ten rows are more than it shows: the wheel scrolls, and the active spline's row comes into sight by itself.
 TEST(rows_scroll)
 {
-    char scene[2048] = "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [";
+    char scene[2048] = "{'wiggly': 1, 'frames': [0, 96], 'splines': [";
     for (int i = 0; i < 10; i++)
-        sprintf(scene + strlen(scene),
-                "%s{\"name\": \"s%d\", \"frequency\": 1, \"knots\": [{\"frame\": %d, \"value\": 0}]}", i ? ", " : "",
-                i, 10 + i);
+        sprintf(scene + strlen(scene), "%s{'name': 's%d', 'frequency': 1, 'knots': [{'frame': %d, 'value': 0}]}",
+                i ? ", " : "", i, 10 + i);
     struct session session, *const s = &session;
     session_open(s, strcat(scene, "]}"));
     hands(s, "key F7; point mark(s0,0); lacks mark(s9,0); wheel -1; wheel -1; wait 1; lacks mark(s0,0);"
@@ -347,11 +338,9 @@ TEST(rows_scroll)
 
 // --- knots as text and on the clipboard: what is read, what is refused and with which words, and what pasting does ---
 
-static const char MARKED[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-    "\"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 20.5, \"value\": 1, \"slope\": 2,"
-    "\"stiffness\": 50}, {\"frame\": 30, \"value\": -1}, {\"frame\": 40, \"value\": 0.5},"
-    "{\"frame\": 60, \"value\": 0, \"mark\": \"kept\"}]}]}";
+static const char MARKED[] = "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': "
+                             "1,'damping': 0.1, 'knots': [<10 0>, {'frame': 20.5, 'value': 1, 'slope': "
+                             "2,'stiffness': 50}, <30 -1>, <40 0.5>,{'frame': 60, 'value': 0, 'mark': 'kept'}]}]}";
 
 static void assert_read(const char *text, const struct knot expected[2])
 {
@@ -469,81 +458,4 @@ SESSION_TEST(copies_come_behind_and_pass_through, session_open(s, MARKED))
     const char *mark = strstr(session_saved(s), "\"mark\": \"kept\"");
     assert_non_null(mark);
     assert_non_null(strstr(mark + 1, "\"mark\": \"kept\"")); // keys that nobody here knows are copied too
-}
-
-// --- a monkey ---
-
-static int below(int limit) { return rand() % limit; }
-
-/// One event of somebody who hits everything: mostly sensible places, any key, any modifiers.
-static void monkey(struct session *s)
-{
-    static const int keys[] = {KEY_SPACE, KEY_ESCAPE, KEY_ENTER,     KEY_TAB,       KEY_DELETE, KEY_LEFT, KEY_RIGHT,
-                               KEY_UP,    KEY_DOWN,   KEY_PAGE_DOWN, KEY_HOME,      KEY_END,    KEY_F1,   ',',
-                               'A',       'B',        'C',           'D',           'E',        'F',      'I',
-                               'L',       'M',        'T',           'V',           'X',        'Y',      'Z',
-                               '1',       '.',        '-',           KEY_BACKSPACE, 'I',        'T',      'S',
-                               'N',       'U',        'G',           'R',           'P',        'S',      'R'};
-    static const unsigned mods[] = {0, 0, 0, MOD_SHIFT, MOD_CTRL, MOD_ALT, MOD_ALT | MOD_SHIFT, MOD_ALT | MOD_CTRL};
-    char target[32];
-    struct event event = {.x = s->x, .y = s->y, .mods = mods[below(8)], .scale = 1};
-    switch (below(8)) {
-    case 0:
-    case 1:
-    case 2:
-        session_move(s, (float)below(1300) - 10, (float)below(730) - 5);
-        return;
-    case 3:
-        if (spline(s, 0)->knot_count == 0) return;
-        snprintf(target, sizeof target, "knot(sway,%d)", below(spline(s, 0)->knot_count));
-        if (!editor_target(s->editor, target, &event.x, &event.y, NULL)) return;
-        session_move(s, event.x, event.y);
-        event.kind = EVENT_BUTTON;
-        event.action = ACTION_PRESS;
-        event.clicks = 1;
-        break;
-    case 4:
-        event.kind = EVENT_BUTTON;
-        event.button = (enum event_button)(below(6) / 4);
-        event.action = below(2) ? ACTION_PRESS : ACTION_RELEASE;
-        event.clicks = 1 + below(2);
-        break;
-    case 5:
-        event.kind = below(4) ? EVENT_WHEEL : below(2) ? EVENT_TEXT : EVENT_PASTE;
-        event.text = below(2) ? copied(s->editor) : "0,0.5\n2,-1,3\n7,1e9\n";
-        event.dy = (float)below(9) - 4;
-        event.codepoint = (uint32_t) "0123456789-+.,<>[]"[below(18)];
-        break;
-    default:
-        event.kind = EVENT_KEY;
-        event.action = (enum event_action)below(3);
-        event.key = keys[below(sizeof keys / sizeof keys[0])];
-    }
-    session_send(s, event);
-}
-
-TEST(test_a_monkey_can_be_undone)
-{
-    for (unsigned seed = 1; seed <= 12; seed++) {
-        struct session s;
-        srand(seed);
-        session_open(&s, SWAY);
-        const char *original = session_saved(&s);
-        for (int i = 0; i < 1500; i++) {
-            monkey(&s);
-            if (below(3) == 0) session_frame(&s);
-            session_asked(&s);
-        }
-        for (int i = 0; i < 4; i++) {
-            session_key(&s, KEY_ESCAPE, 0);
-            session_release(&s, BUTTON_LEFT);
-            session_release(&s, BUTTON_RIGHT);
-        }
-        assert_false(history_is_open(s.history));
-        for (int i = 0; i < s.work.evaluation.samples; i++)
-            assert_true(isfinite(s.work.evaluation.curves[0].total[i]));
-        while (history_undo_label(s.history)) assert_true(history_undo(s.history));
-        assert_saved(&s, original);
-        session_close(&s);
-    }
 }

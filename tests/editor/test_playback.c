@@ -9,8 +9,8 @@
 static void open_at(struct session *s, double frame)
 {
     panel_open(s,
-               "{\"frames\": [0, 100], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
-               "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 1}]}]}",
+               "{'frames': [0, 100], 'substeps': 2, 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, "
+               "'knots': [<0 0>, <40 1>]}]}",
                1280, 720);
     seek(s->editor, frame);
 }
@@ -102,11 +102,11 @@ SESSION_TEST(controls_are_clicked, open_at(s, 10))
 // --- what swings is caught ---
 
 #define SWINGS(x)                                                                                                    \
-    "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.02, \"start\": "      \
-    "\"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 48, \"value\": 1}]},{\"name\": \"run\", "       \
-    "\"mode\": \"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 48, "           \
-    "\"value\": 9}]}],\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [" x ", 0.26, 0], "          \
-    "\"channels\": [{\"spline\": \"sway\", \"lag\": 6, \"gain\": 6}]}]}"
+    "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.02, 'start': "                    \
+    "'loop', 'knots': [<0 1>, <48 1>]},{'name': 'run', "                                                             \
+    "'mode': 'cubic', 'start': 'loop', 'knots': [<0 0>, {'frame': 48, "                                              \
+    "'value': 9}]}],'rigs': [{'type': 'tail', 'name': 'tail', 'position': [" x ", 0.26, 0], "                        \
+    "'channels': [{'spline': 'sway', 'lag': 6, 'gain': 6}]}]}"
 
 /// Where the pointer was put, nothing is after a quarter of a second; the press still takes what it was put on. While the scene stands, what
 /// is pressed is what is seen: the camera turns.
@@ -115,7 +115,7 @@ TEST(what_swings_is_caught)
     static const struct {
         const char *scene, *steps, *taken;
     } rows[] = {{SWINGS("0"), "point tail(tail,0.95); wait 15", "Pull tail"},
-                {SWINGS("{\"spline\": \"run\"}"), "point body(tail); wait 15", "Move body"},
+                {SWINGS("{'spline': 'run'}"), "point body(tail); wait 15", "Move body"},
                 {SWINGS("0"), "point tail(tail,0.95); wait 15; key Space", NULL}};
     for (int i = 0; i < 3; i++) {
         struct session session, *const s = &session;
@@ -169,14 +169,11 @@ TEST(figures_play_below_their_captions)
 }
 
 /// Two tails have their names at their feet, each behind a dot in the colour of its curve.
-SESSION_TEST(
-    two_tails_are_told_apart,
-    session_open(
-        s,
-        "{\"frames\": [0, 24], \"splines\": [{\"name\": \"a\", \"color\": \"#ff8000\"}, {\"name\": \"b\", \"color\": "
-        "\"#0080ff\"}], "
-        "\"rigs\": [{\"type\": \"tail\", \"name\": \"old\", \"channels\": [{\"spline\": \"a\"}]}, "
-        "{\"type\": \"tail\", \"name\": \"new\", \"position\": [2, 0, 0], \"channels\": [{\"spline\": \"b\"}]}]}"))
+SESSION_TEST(two_tails_are_told_apart,
+             session_open(s,
+                          "{'frames': [0, 24], 'splines': [{'name': 'a', 'color': '#ff8000'}, {'name': 'b', 'color': "
+                          "'#0080ff'}], 'rigs': [{'type': 'tail', 'name': 'old', 'channels': [{'spline': 'a'}]}, "
+                          "{'type': 'tail', 'name': 'new', 'position': [2, 0, 0], 'channels': [{'spline': 'b'}]}]}"))
 {
     session_frame(s);
     const struct rect stage = layout_of(s->editor)->stage;
@@ -269,12 +266,11 @@ SESSION_TEST(playing_is_scrubbing, open_hops(s))
 }
 
 static const char SETTLES[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"walk\", \"mode\": \"cubic\", \"knots\": ["
-    "{\"frame\": 0, \"value\": 0}, {\"frame\": 20, \"value\": 0.4}]}, {\"name\": \"swing\", \"frequency\": 1.5, "
-    "\"damping\": 0.3, \"wind_up\": 0.5, \"equilibrium\": {\"spline\": \"walk\"}, \"knots\": ["
-    "{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 5.4, \"settles\": true}]}], \"rigs\": [{\"type\": "
-    "\"tail\", \"name\": \"tail\", \"joints\": 24, \"position\": [{\"spline\": \"walk\"}, 0.26, 0], \"channels\": "
-    "[{\"spline\": \"swing\", \"axis\": \"side\", \"of\": \"displacement\", \"gain\": 2}]}]}";
+    "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'walk', 'mode': 'cubic', 'knots': [<0 0>, <20 0.4>]}, "
+    "{'name': 'swing', 'frequency': 1.5, 'damping': 0.3, 'wind_up': 0.5, 'equilibrium': {'spline': 'walk'}, 'knots': "
+    "[<0 0>, {'frame': 40, 'value': 5.4, 'settles': true}]}], 'rigs': [{'type': 'tail', 'name': 'tail', 'joints': "
+    "24, 'position': [{'spline': 'walk'}, 0.26, 0], 'channels': [{'spline': 'swing', 'axis': 'side', 'of': "
+    "'displacement', 'gain': 2}]}]}";
 
 /// A tail that follows its body, and comes to bend by five times its gain, stays so; that the body stands aside does not bend it.
 SESSION_TEST(a_tail_that_follows_settles_bent, session_open(s, SETTLES))

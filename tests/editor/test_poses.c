@@ -10,9 +10,9 @@
 #include "uniform.h"
 
 #define HOLDING                                                                                                      \
-    "{\"wiggly\": 2, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"   \
-    "\"knots\": [{\"frame\": 20, \"value\": 0.8, \"im\": 0.3}, {\"frame\": 34, \"value\": 0.5, \"settles\": true},"  \
-    "{\"frame\": 50, \"still\": true}, {\"frame\": 64, \"value\": -0.6, \"im\": 0.45, \"slope\": 1}]}]}"
+    "{'wiggly': 2, 'frames': [0, 120], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1,"                 \
+    "'knots': [{'frame': 20, 'value': 0.8, 'im': 0.3}, {'frame': 34, 'value': 0.5, 'settles': true},"                \
+    "{'frame': 50, 'still': true}, {'frame': 64, 'value': -0.6, 'im': 0.45, 'slope': 1}]}]}"
 
 /// Of a scene in which all knots are selected: the phases of poses in the order of time, which mirror as values do, and how many times each knot
 /// is there. All in one step, but cut and paste.
@@ -87,10 +87,10 @@ TEST(a_value_comes_back)
         double value;
         const char *said;
     } rows[] = {
-        {"{\"frame\": 48, \"value\": 2.5}", INFINITY, 2.5, ""},
-        {"{\"frame\": 48, \"value\": 2.5, \"im\": 0.3, \"slope\": 1}", INFINITY, 2.5, ""},
-        {"{\"frame\": 48, \"value\": 2.5}", 2.25, 2.25, "Held by the limit 2.25"},
-        {"{\"frame\": 48, \"still\": true}", INFINITY, 2, ""},
+        {"<48 2.5>", INFINITY, 2.5, ""},
+        {"{'frame': 48, 'value': 2.5, 'im': 0.3, 'slope': 1}", INFINITY, 2.5, ""},
+        {"<48 2.5>", 2.25, 2.25, "Held by the limit 2.25"},
+        {"{'frame': 48, 'still': true}", INFINITY, 2, ""},
     };
     for (size_t i = 0; i < 2 * sizeof rows / sizeof *rows; i++) {
         const struct row *row = &rows[i / 2];
@@ -98,8 +98,8 @@ TEST(a_value_comes_back)
         char scene[512];
         struct session session, *const s = &session;
         snprintf(scene, sizeof scene,
-                 "{\"wiggly\": 2, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
-                 "\"equilibrium\": 2, \"knots\": [{\"frame\": 24, \"value\": 2.125}, %s]}]}",
+                 "{'wiggly': 2, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'equilibrium': 2, "
+                 "'knots': [<24 2.125>, %s]}]}",
                  row->knot);
         session_open(s, scene);
         hands(s, "click knot(sway,1); %s shows Comes to rest at the equilibrium; sway.1.still 1; sway@48 2",
@@ -120,15 +120,14 @@ TEST(a_value_comes_back)
 /// Shift+F finds the same with the value that a still knot keeps as without one.
 TEST(a_kept_value_explains_nothing)
 {
-    static const char *const knots[] = {"\"value\": 9", "\"still\": true"};
+    static const char *const knots[] = {"'value': 9", "'still': true"};
     double found[2];
     for (int i = 0; i < 2; i++) {
         char scene[512];
         struct session session, *const s = &session;
         snprintf(scene, sizeof scene,
-                 "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"equilibrium\": 2, "
-                 "\"knots\": [{\"frame\": 0, \"value\": 3}, {\"frame\": 9, \"value\": 1.1}, {\"frame\": 18, "
-                 "\"value\": 2.8}, {\"frame\": 27, \"value\": 1.3}, {\"frame\": 60, %s}]}]}",
+                 "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'equilibrium': 2, 'knots': [<0 "
+                 "3>, <9 1.1>, <18 2.8>, <27 1.3>, {'frame': 60, %s}]}]}",
                  knots[i]);
         session_open(s, scene);
         hands(s, "click knot(sway,4); %s key Shift+F; said Best; sway.frequency 1.3333 ~0.02",
@@ -147,7 +146,7 @@ WALK(knots_settle_and_do_not, session_open(s, HOLDING),
 TEST(edits_of_the_scene_keep_what_knots_hold)
 {
     static const double phases[] = {0.3, 0.45};
-    struct document *document = document_of_text(HOLDING);
+    struct document *document = document_of_scene(HOLDING);
     assert_done(edit_spline_copy(document, 0, &error));
     assert_held("a copy", document->splines[1], phases, 1);
     assert_done(edit_fps(document, 48, true, &error));
@@ -159,16 +158,15 @@ TEST(edits_of_the_scene_keep_what_knots_hold)
 }
 
 #define RESTS_AT_2(knots)                                                                                            \
-    "{\"wiggly\": 2, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": "        \
-    "0.1, \"equilibrium\": 2, \"knots\": [" knots ", {\"frame\": 48, \"still\": true}]}]}"
+    "{'wiggly': 2, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': "                      \
+    "0.1, 'equilibrium': 2, 'knots': [" knots ", {'frame': 48, 'still': true}]}]}"
 
 /// T goes by the knots that can have a slope, and aims at where a still knot is, not at 0: from 2 to 2.
-WALK(slopes_beside_a_still_knot,
-     session_open(s, RESTS_AT_2("{\"frame\": 24, \"value\": 2}, {\"frame\": 36, \"value\": 3}")),
+WALK(slopes_beside_a_still_knot, session_open(s, RESTS_AT_2("<24 2>, <36 3>")),
      "key Ctrl+A Ctrl+T; sway.1.slope 0; key T; sway.1.sloped 0")
 
 /// A still knot is picked up where it is seen.
-SESSION_TEST(a_still_knot_is_where_it_is_seen, session_open(s, RESTS_AT_2("{\"frame\": 24, \"value\": 2.5}")))
+SESSION_TEST(a_still_knot_is_where_it_is_seen, session_open(s, RESTS_AT_2("<24 2.5>")))
 {
     hands(s, "hover knot(sway,1)");
     assert_ptr_equal(hovered(s->editor), &thing_knot);
@@ -186,29 +184,25 @@ static void write_scene(uint64_t *seed, char *text, size_t size)
     const bool loops = uniform(seed) < 0.4, moves = uniform(seed) < 0.4;
     const int count = loops ? 1 + (int)(uniform(seed) * 6) : 3 + (int)(uniform(seed) * 4);
     size_t n = (size_t)snprintf(text, size,
-                                "{\"wiggly\": 1, \"frames\": [0, %d], \"splines\": [{\"name\": \"sway\", "
-                                "\"frequency\": %.3f, \"damping\": %.3f, \"wind_up\": %.2f, \"start\": \"%s\", "
-                                "%s\"knots\": [",
+                                "{'wiggly': 1, 'frames': [0, %d], 'splines': [{'name': 'sway', 'frequency': %.3f, "
+                                "'damping': %.3f, 'wind_up': %.2f, 'start': '%s', %s'knots': [",
                                 FRAMES, 0.4 + 2 * uniform(seed), 0.3 * uniform(seed), 0.3 + uniform(seed),
-                                loops ? "loop" : "free", moves ? "\"equilibrium\": {\"spline\": \"base\"}, " : "");
+                                loops ? "loop" : "free", moves ? "'equilibrium': {'spline': 'base'}, " : "");
     for (int k = 0; k < count; k++) {
         const double what = uniform(seed);
         const int frame = 10 + 32 * k + (int)(20 * uniform(seed));
-        n += (size_t)snprintf(text + n, size - n, "%s{\"frame\": %d", k ? ", " : "", frame);
+        n += (size_t)snprintf(text + n, size - n, "%s{'frame': %d", k ? ", " : "", frame);
         if (what < 0.1 && k > 0) {
-            n += (size_t)snprintf(text + n, size - n, ", \"still\": true}");
+            n += (size_t)snprintf(text + n, size - n, ", 'still': true}");
             continue;
         }
-        n += (size_t)snprintf(text + n, size - n, ", \"value\": %.3f", 2 * uniform(seed) - 1);
-        if (what > 0.1 && what < 0.25)
-            n += (size_t)snprintf(text + n, size - n, ", \"im\": %.3f", uniform(seed) - 0.5);
-        if (what > 0.85 && k > 0)
-            n += (size_t)snprintf(text + n, size - n, ", \"slope\": %.3f", 4 * uniform(seed) - 2);
+        n += (size_t)snprintf(text + n, size - n, ", 'value': %.3f", 2 * uniform(seed) - 1);
+        if (what > 0.1 && what < 0.25) n += (size_t)snprintf(text + n, size - n, ", 'im': %.3f", uniform(seed) - 0.5);
+        if (what > 0.85 && k > 0) n += (size_t)snprintf(text + n, size - n, ", 'slope': %.3f", 4 * uniform(seed) - 2);
         n += (size_t)snprintf(text + n, size - n, "}");
     }
     snprintf(text + n, size - n,
-             "]}, {\"name\": \"base\", \"mode\": \"cubic\", \"start\": \"%s\", \"knots\": [{\"frame\": 0, \"value\": "
-             "0.3}, {\"frame\": 90, \"value\": -0.4}, {\"frame\": 170, \"value\": 0.5}]}]}",
+             "]}, {'name': 'base', 'mode': 'cubic', 'start': '%s', 'knots': [<0 0.3>, <90 -0.4>, <170 0.5>]}]}",
              loops ? "loop" : "free");
 }
 
@@ -292,10 +286,8 @@ TEST(an_edit_changes_nothing_beyond_the_next_knot)
     assert_true(posed > EDITED / 4);
 }
 
-static const char SWAY[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, "
-    "\"wind_up\": 0.5, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 24, \"value\": 1}, "
-    "{\"frame\": 50, \"value\": -1}, {\"frame\": 70, \"value\": 0.5}]}]}";
+static const char SWAY[] = "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': "
+                           "0.1, 'wind_up': 0.5, 'knots': [<0 0>, <24 1>, <50 -1>, <70 0.5>]}]}";
 
 /// Off, with Alt held, by a drag that is taken back, or for a knot that settles, nothing becomes a pose; nor for a whole curve.
 SESSION_TEST(an_edit_swings_through_on_demand, session_open(s, SWAY))
@@ -325,21 +317,19 @@ static void open_beast(struct session *session, const char *knots)
     char scene[4096];
     assert_true(beast_write(folder_path("beast.glb")));
     snprintf(scene, sizeof scene,
-             "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"flick\", \"frequency\": 1.5, "
-             "\"damping\": 0.1, \"bandwidth\": 0.1, \"knots\": [%s]}, {\"name\": \"ear\", \"start\": \"loop\", "
-             "\"frequency\": 2, \"damping\": 0.05, \"knots\": [%s]}], \"rigs\": [{\"type\": \"model\", \"name\": "
-             "\"beast\", \"model\": \"%s\"}, {\"type\": \"chain\", \"name\": \"tail\", \"model\": \"beast\", "
-             "\"from\": \"tail_1\", \"to\": \"tail_8\", \"channels\": [{\"spline\": \"flick\", \"axis\": \"side\", "
-             "\"lag\": 20, \"gain\": 8}]}, {\"type\": \"chain\", \"name\": \"ear\", \"model\": \"beast\", \"from\": "
-             "\"ear_L_1\", \"to\": \"ear_L_2\", \"channels\": [{\"spline\": \"ear\", \"axis\": \"up\", \"lag\": 70, "
-             "\"gain\": 30}]}]}",
+             "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'flick', 'frequency': 1.5, 'damping': 0.1, "
+             "'bandwidth': 0.1, 'knots': [%s]}, {'name': 'ear', 'start': 'loop', 'frequency': 2, 'damping': 0.05, "
+             "'knots': [%s]}], 'rigs': [{'type': 'model', 'name': 'beast', 'model': '%s'}, {'type': 'chain', 'name': "
+             "'tail', 'model': 'beast', 'from': 'tail_1', 'to': 'tail_8', 'channels': [{'spline': 'flick', 'axis': "
+             "'side', 'lag': 20, 'gain': 8}]}, {'type': 'chain', 'name': 'ear', 'model': 'beast', 'from': 'ear_L_1', "
+             "'to': 'ear_L_2', 'channels': [{'spline': 'ear', 'axis': 'up', 'lag': 70, 'gain': 30}]}]}",
              knots, knots, folder_path("beast.glb"));
     panel_open_models(session, scene);
     session_move(session, 2, 2);
     session_frame(session);
 }
 
-static const char two_knots[] = "{\"frame\": 12, \"value\": 0.3}, {\"frame\": 72, \"value\": -0.4}";
+static const char two_knots[] = "<12 0.3>, <72 -0.4>";
 
 /// The knot on the sample is a pose, of what the curve shows there. test_pose_holds.c has what may change then.
 static void assert_pose(const struct session *session, int s, int sample)

@@ -3,18 +3,17 @@
 #include "hands.h"
 #include "panel_session.h"
 
-#define SCENE(last, members)                                                                                         \
-    "{\"wiggly\": 2, \"frames\": [0, " last "], \"splines\": [{\"name\": \"sway\", " members "}]}"
+#define SCENE(last, members) "{'wiggly': 2, 'frames': [0, " last "], 'splines': [{'name': 'sway', " members "}]}"
 #define SETTLING(members)                                                                                            \
-    SCENE("48", "\"knots\": [{\"frame\": 10, \"value\": 0.2, \"settles\": true}, {\"frame\": 20, \"value\": "        \
+    SCENE("48", "'knots': [{'frame': 10, 'value': 0.2, 'settles': true}, {'frame': 20, 'value': "                    \
                 "0.3}], " members)
 /// Two poses two periods apart, whose values are in step, but not their phases: the later one is passed the other way.
 #define FORCED                                                                                                       \
-    SCENE("120", "\"frequency\": 1, \"damping\": 0.05, \"bandwidth\": 0.03, \"knots\": [{\"frame\": 12, \"value\": " \
-                 "0.3, \"im\": 1}, {\"frame\": 60, \"value\": 0.3, \"im\": -1}, {\"frame\": 96, \"value\": 0.9}]")
+    SCENE("120", "'frequency': 1, 'damping': 0.05, 'bandwidth': 0.03, 'knots': [{'frame': 12, 'value': "             \
+                 "0.3, 'im': 1}, {'frame': 60, 'value': 0.3, 'im': -1}, <96 0.9>]")
 #define WIDE                                                                                                         \
-    SCENE("120", "\"frequency\": 1, \"damping\": 0.1, \"bandwidth\": 0.2, \"knots\": [{\"frame\": 0, \"value\": 1}," \
-                 "{\"frame\": 24, \"value\": 1}, {\"frame\": 84, \"value\": 1}]")
+    SCENE("120", "'frequency': 1, 'damping': 0.1, 'bandwidth': 0.2, 'knots': [<0 1>,"                                \
+                 "<24 1>, <84 1>]")
 
 /// Scenes with one warning, and what is so once that is clicked.
 static const struct {
@@ -22,33 +21,26 @@ static const struct {
     const char *scene, *remedy;
 } warned[] = {
     // a jump within two frames, and a knot half a period later that asks for the same value again; it is calm enough
-    {WARNING_FAR,
-     SCENE("72",
-           "\"frequency\": 1, \"damping\": 0.05, \"bandwidth\": 0.05, \"knots\": [{\"frame\": 10, \"value\": 0},"
-           "{\"frame\": 12, \"value\": 1}, {\"frame\": 24, \"value\": 1}]"),
+    {WARNING_FAR, SCENE("72", "'frequency': 1, 'damping': 0.05, 'bandwidth': 0.05, 'knots': [<10 0>,<12 1>, <24 1>]"),
      "sway.knots 3; sway.limits -1.2 1.2"},
     // half a period apart, and a start that costs nothing however hard it swings; no knot where calm does it
     {WARNING_FAR,
-     SCENE("72", "\"frequency\": 1, \"mode\": \"real\", \"calm\": 0, \"damping\": 0.05, \"knots\": [{\"frame\": 10, "
-                 "\"value\": 1}, {\"frame\": 22, \"value\": 1}]"),
+     SCENE("72", "'frequency': 1, 'mode': 'real', 'calm': 0, 'damping': 0.05, 'knots': [<10 1>, <22 1>]"),
      "sway.knots 2; sway.calm 1 ~0"},
-    {WARNING_RATE,
-     SCENE("48", "\"frequency\": 9, \"damping\": 0.1, \"bandwidth\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0},"
-                 "{\"frame\": 12, \"value\": 1}, {\"frame\": 14, \"value\": 0}]"),
+    {WARNING_RATE, SCENE("48", "'frequency': 9, 'damping': 0.1, 'bandwidth': 0.1, 'knots': [<10 0>,<12 1>, <14 0>]"),
      "substeps 2; sway.frequency 9 ~0"},
     // knots on both samples beside a slope: nothing is left for it to say
     {WARNING_SLOPE,
-     SCENE("48",
-           "\"frequency\": 1, \"mode\": \"real\", \"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0.2}, "
-           "{\"frame\": 11, \"value\": 0.3, \"slope\": 5}, {\"frame\": 12, \"value\": 0.38}]"),
+     SCENE("48", "'frequency': 1, 'mode': 'real', 'damping': 0.1, 'knots': [<10 0.2>, {'frame': 11, 'value': 0.3, "
+                 "'slope': 5}, <12 0.38>]"),
      "sway.1.sloped 0"},
     {WARNING_PHASE,
-     SCENE("48", "\"mode\": \"cubic\", \"knots\": [{\"frame\": 10, \"value\": 0.2, \"im\": 1}, {\"frame\": 20, "
-                 "\"value\": 0.3, \"im\": 0}]"),
+     SCENE("48",
+           "'mode': 'cubic', 'knots': [{'frame': 10, 'value': 0.2, 'im': 1}, {'frame': 20, 'value': 0.3, 'im': 0}]"),
      "sway.posed 0 0"},
-    {WARNING_WIND_UP, SETTLING("\"passive\": \"filter\", \"frequency\": 1, \"wind_up\": 0.5"), "sway.wind_up 0 ~0"},
-    {WARNING_SUDDEN, SETTLING("\"frequency\": 2, \"wind_up\": 0.1"), "sway.wind_up 0.17"},
-    {WARNING_SETTLES, SETTLING("\"mode\": \"cubic\""), "sway.settles 0 0"},
+    {WARNING_WIND_UP, SETTLING("'passive': 'filter', 'frequency': 1, 'wind_up': 0.5"), "sway.wind_up 0 ~0"},
+    {WARNING_SUDDEN, SETTLING("'frequency': 2, 'wind_up': 0.1"), "sway.wind_up 0.17"},
+    {WARNING_SETTLES, SETTLING("'mode': 'cubic'"), "sway.settles 0 0"},
     {WARNING_FORCED, FORCED, "sway.0.posed ! sway.1.posed"},
     {WARNING_DRIFT, WIDE, "sway.bandwidth 0.12"}, // 0.3 over 2.5 periods
 };
@@ -73,7 +65,7 @@ TEST(one_click_remedies)
 /// Stiff, a cubic is the same curve; and the wind-up of a spring, as its bandwidth, waits for the day that it is Wiggly again.
 WALK(a_cubic_has_nothing_to_warn_of, session_open(s, WIDE), "key V; warnings 1; key V; warnings 0")
 WALK(the_wind_up_of_a_spring_is_no_matter,
-     session_open(s, SETTLING("\"mode\": \"real\", \"frequency\": 1, \"wind_up\": 0.5")), "warnings 0")
+     session_open(s, SETTLING("'mode': 'real', 'frequency': 1, 'wind_up': 0.5")), "warnings 0")
 
 /// Poses as they are seen where they are set force nothing, whatever their order.
 SESSION_TEST(poses_on_a_curve_force_nothing, session_open(s, FORCED))
@@ -105,20 +97,20 @@ TEST(the_scenes_of_the_program_are_quiet)
 // --- far ---
 
 /// A jump within a frame.
-#define JUMP "{\"frame\": 10, \"value\": 0}, {\"frame\": 11, \"value\": 1}, {\"frame\": 24, \"value\": 1}"
+#define JUMP "<10 0>, <11 1>, <24 1>"
 #define JUMPS(last, more, before)                                                                                    \
-    "{\"wiggly\": 2, \"frames\": [0, " last "], \"splines\": [" before "{\"name\": \"sway\", \"frequency\": 1, "     \
-    "\"damping\": 0.05, \"bandwidth\": 0.05" more ", \"knots\": [" JUMP "]}]}"
+    "{'wiggly': 2, 'frames': [0, " last "], 'splines': [" before "{'name': 'sway', 'frequency': 1, "                 \
+    "'damping': 0.05, 'bandwidth': 0.05" more ", 'knots': [" JUMP "]}]}"
 #define BASE                                                                                                         \
-    "{\"name\": \"base\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 60, "           \
-    "\"value\": 3}]},"
+    "{'name': 'base', 'mode': 'cubic', 'knots': [<0 0>, {'frame': 60, "                                              \
+    "'value': 3}]},"
 
 /// What is said of the last spline of a scene.
 static struct warnings found_by(const char *scene,
                                 void (*add)(const struct document *document, const struct evaluation *evaluation,
                                             int spline, struct warnings *found))
 {
-    struct document *document = document_of_text(scene);
+    struct document *document = document_of_scene(scene);
     struct evaluation evaluation = {0};
     struct warnings found = {0};
     evaluation_update(&evaluation, document, false);
@@ -131,18 +123,19 @@ static struct warnings found_by(const char *scene,
 TEST(limits_moving_equilibria_and_poses_are_not_far)
 {
     static const char *const quiet[] = {
-        JUMPS("72", ", \"limits\": [null, 9]", ""),
-        JUMPS("72", ", \"equilibrium\": {\"spline\": \"base\"}", BASE),
-        JUMPS("72", ", \"mode\": \"cubic\"", ""),
+        JUMPS("72", ", 'limits': [null, 9]", ""),
+        JUMPS("72", ", 'equilibrium': {'spline': 'base'}", BASE),
+        JUMPS("72", ", 'mode': 'cubic'", ""),
         // poses at which the curve passes through 0 as fast as it swings
-        SCENE("72", "\"frequency\": 1, \"knots\": [{\"frame\": 12, \"value\": 0.1, \"im\": 1}, {\"frame\": 36, "
-                    "\"value\": 0.1, \"im\": 1}]"),
+        SCENE(
+            "72",
+            "'frequency': 1, 'knots': [{'frame': 12, 'value': 0.1, 'im': 1}, {'frame': 36, 'value': 0.1, 'im': 1}]"),
     };
     for (size_t i = 0; i < sizeof quiet / sizeof *quiet; i++)
         if (found_by(quiet[i], warnings_add_far).count) fail_msg("%s is far", quiet[i]);
     assert_int_equal(found_by(JUMPS("72", "", ""), warnings_add_far).count, 1);
     // the largest knot is measured from the equilibrium
-    const struct warnings found = found_by(JUMPS("72", ", \"equilibrium\": -0.2", ""), warnings_add_far);
+    const struct warnings found = found_by(JUMPS("72", ", 'equilibrium': -0.2", ""), warnings_add_far);
     assert_int_equal(found.count, 1);
     assert_near(fabs(found.list[0].remedy + 0.2), 1.2, 1e-12);
     assert_true(found.list[0].low < -1.4 && found.list[0].low > -2);
@@ -151,8 +144,8 @@ TEST(limits_moving_equilibria_and_poses_are_not_far)
 /// Where values alone are out of step, a free phase would not help, so nothing is said of the phases.
 TEST(values_out_of_step_are_not_a_matter_of_phase)
 {
-    assert_int_equal(found_by(SCENE("120", "\"frequency\": 1, \"bandwidth\": 0.03, \"knots\": [{\"frame\": 12, "
-                                           "\"value\": 1, \"im\": 0}, {\"frame\": 60, \"value\": -1, \"im\": 0}]"),
+    assert_int_equal(found_by(SCENE("120", "'frequency': 1, 'bandwidth': 0.03, 'knots': [{'frame': 12, 'value': 1, "
+                                           "'im': 0}, {'frame': 60, 'value': -1, 'im': 0}]"),
                               warnings_add_forced)
                          .count,
                      0);
@@ -203,7 +196,7 @@ SESSION_TEST(the_start_scene_bears_the_same_drag, session_open_file(s, "assets/s
 /// A scene too long for limits: W adds a pose at the peak, outside complex mode a knot.
 TEST(a_pose_at_the_peak_holds_where_limits_cannot)
 {
-    static const char *const scenes[] = {JUMPS("25000", ", \"mode\": \"real\"", ""), JUMPS("25000", "", "")};
+    static const char *const scenes[] = {JUMPS("25000", ", 'mode': 'real'", ""), JUMPS("25000", "", "")};
     for (int is_complex = 0; is_complex < 2; is_complex++) {
         struct session session, *const s = &session;
         double knot;
@@ -220,9 +213,8 @@ TEST(a_pose_at_the_peak_holds_where_limits_cannot)
 // --- limits ---
 
 static const char LIMITED[] =
-    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1.2, \"damping\": 0.05, "
-    "\"limits\": [null, 1.2], \"knots\": [{\"frame\": 8, \"value\": 0}, {\"frame\": 14, \"value\": 0.8}, "
-    "{\"frame\": 22, \"value\": -0.4}, {\"frame\": 60, \"value\": 1}]}]}";
+    "{'wiggly': 1, 'frames': [0, 120], 'splines': [{'name': 'sway', 'frequency': 1.2, 'damping': 0.05, 'limits': "
+    "[null, 1.2], 'knots': [<8 0>, <14 0.8>, <22 -0.4>, <60 1>]}]}";
 
 SESSION_TEST(a_line_is_dragged_as_far_as_the_knots, session_open(s, LIMITED))
 {
@@ -264,12 +256,10 @@ SESSION_TEST(a_nudge_goes_as_far_as_the_limit, session_open(s, LIMITED))
 }
 
 /// It bends as far as the limit; before, the pull was taken back as a whole.
-SESSION_TEST(
-    a_pulled_tail_stops_at_the_limit,
-    session_open(s,
-                 "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"limits\": [-0.5, 0.5], "
-                 "\"knots\": [{\"frame\": 0, \"value\": 0}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", "
-                 "\"position\": [0, 0.26, 0], \"channels\": [{\"spline\": \"sway\", \"gain\": 6}]}]}"))
+SESSION_TEST(a_pulled_tail_stops_at_the_limit,
+             session_open(s, "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'limits': [-0.5, 0.5], "
+                             "'knots': [<0 0>]}], 'rigs': [{'type': 'tail', 'name': 'tail', 'position': [0, 0.26, "
+                             "0], 'channels': [{'spline': 'sway', 'gain': 6}]}]}"))
 {
     hands(s, "wait 1; pull tail(tail,0.95) -500 0 25; wait 20; release; said eld by the limit");
     assert_near(fabs(s->document->splines[0]->knots[0].value), 0.5, 0);
