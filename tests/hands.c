@@ -35,15 +35,6 @@ static double number(const struct played *step, const char *text)
     return value;
 }
 
-/// The curves of the session that are kept; returns how many there are.
-static int curves_of(const struct session *s, const wiggly_curve **curves, int *samples)
-{
-    const struct evaluation *evaluation = &s->work.evaluation;
-    *curves = evaluation->curves;
-    *samples = evaluation->samples < MOST_SAMPLES ? evaluation->samples : MOST_SAMPLES;
-    return s->document->spline_count < MOST_CURVES ? s->document->spline_count : MOST_CURVES;
-}
-
 // --- does ---
 
 /// Where a target of replays is, or a widget of the inspector, whose name may have _ for a space.
@@ -63,12 +54,6 @@ static void point(const struct played *step, int i)
     float xy[2];
     if (!find_place(step->s->editor, word(step, i), xy, &why)) WRONG(step, "%s", why.text);
     session_move(step->s, xy[0], xy[1]);
-}
-
-static void press(const struct played *step, int i, int clicks)
-{
-    if (i < step->count) point(step, i);
-    session_press(step->s, BUTTON_LEFT, clicks);
 }
 
 /// A way in pixels.
@@ -141,7 +126,8 @@ static void slide(const struct played *step)
     char target[64];
     struct error why = {0};
     float xy[2];
-    press(step, 1, 1);
+    point(step, 1);
+    session_press(step->s, BUTTON_LEFT, 1);
     snprintf(target, sizeof target, "%s,%s", word(step, 1), word(step, 2));
     if (!find_place(step->s->editor, target, xy, &why)) WRONG(step, "%s", why.text);
     session_move(step->s, xy[0] + 3, xy[1]);
@@ -149,72 +135,79 @@ static void slide(const struct played *step)
     session_frame(step->s);
 }
 
-static void keep(struct session *s)
+/// How many curves and samples of them `keep` keeps.
+static void kept_of(const struct session *s, int *curves, int *samples)
 {
-    const wiggly_curve *curves;
-    int samples;
-    s->kept = session_saved(s);
-    for (int i = curves_of(s, &curves, &samples) - 1; i >= 0; i--)
-        memcpy(kept_total[i], curves[i].total, (size_t)samples * sizeof(double));
+    *curves = s->document->spline_count < MOST_CURVES ? s->document->spline_count : MOST_CURVES;
+    *samples = s->work.evaluation.samples < MOST_SAMPLES ? s->work.evaluation.samples : MOST_SAMPLES;
 }
 
-/// Returns false if the step's first word is none of these.
+static void keep(struct session *s)
+{
+    int curves, samples;
+    kept_of(s, &curves, &samples);
+    s->kept = session_saved(s);
+    for (int i = 0; i < curves; i++)
+        memcpy(kept_total[i], s->work.evaluation.curves[i].total, (size_t)samples * sizeof(double));
+}
+
+#define IS(name) (strcmp(step->word[0], name) == 0)
+
+/// A press, a drag and a release, or some of them; returns false if the step is none.
+static bool strokes(const struct played *step)
+{
+    const bool drags = IS("drag"), pulls = IS("pull") || IS("carry"), clicks = IS("click") || IS("again");
+    const bool boxes = IS("box"), releases = IS("release") || IS("carry") || clicks || boxes;
+    if (IS("press") || pulls || clicks || boxes) {
+        if (step->count > 1) point(step, 1);
+        session_press(step->s, BUTTON_LEFT, IS("again") ? 2 : 1);
+    } else if (!drags && !releases) {
+        return false;
+    }
+    if (drags || pulls) drag(step, pulls ? 2 : 1);
+    if (boxes) {
+        point(step, 2);
+        session_frame(step->s);
+    }
+    if (releases) session_release(step->s, BUTTON_LEFT);
+    return true;
+}
+
+/// What else a user does; returns false if the step is none.
 static bool does(const struct played *step)
 {
     struct session *s = step->s;
-    const char *verb = step->word[0], *mods = step->rest;
-    const bool boxes = strcmp(verb, "box") == 0, carries = strcmp(verb, "carry") == 0;
-    if (strcmp(verb, "point") == 0 || strcmp(verb, "hover") == 0) {
+    const char *mods = step->rest;
+    if (IS("point") || IS("hover")) {
         point(step, 1);
-        if (*verb == 'h') session_frame(s);
-    } else if (strcmp(verb, "press") == 0) {
-        press(step, 1, 1);
-    } else if (strcmp(verb, "release") == 0) {
-        session_release(s, BUTTON_LEFT);
-    } else if (strcmp(verb, "click") == 0 || strcmp(verb, "again") == 0) {
-        press(step, 1, *verb == 'a' ? 2 : 1);
-        session_release(s, BUTTON_LEFT);
-    } else if (strcmp(verb, "drag") == 0) {
-        drag(step, 1);
-    } else if (strcmp(verb, "pull") == 0 || carries) {
-        word(step, 3);
-        point(step, 1);
-        session_press(s, BUTTON_LEFT, 1);
-        drag(step, 2);
-        if (carries) session_release(s, BUTTON_LEFT);
-    } else if (boxes) {
-        point(step, 1);
-        session_press(s, BUTTON_LEFT, 1);
-        point(step, 2);
-        session_frame(s);
-        session_release(s, BUTTON_LEFT);
-    } else if (strcmp(verb, "with") == 0) {
+        if (IS("hover")) session_frame(s);
+    } else if (IS("slide")) {
+        slide(step);
+    } else if (IS("with")) {
         s->mods = modifiers(&mods);
-    } else if (strcmp(verb, "key") == 0) {
+    } else if (IS("key")) {
         keys(step);
-    } else if (strcmp(verb, "hold") == 0 || strcmp(verb, "let") == 0) {
-        session_hold(s, key_of(step, word(step, 1)), *verb == 'h' ? ACTION_PRESS : ACTION_RELEASE);
-    } else if (strcmp(verb, "type") == 0) {
+    } else if (IS("hold") || IS("let")) {
+        session_hold(s, key_of(step, word(step, 1)), IS("hold") ? ACTION_PRESS : ACTION_RELEASE);
+    } else if (IS("type")) {
         session_type(s, step->rest);
-    } else if (strcmp(verb, "paste") == 0) {
+    } else if (IS("paste")) {
         paste(s, step->rest);
-    } else if (strcmp(verb, "enter") == 0) {
+    } else if (IS("enter")) {
         point(step, 1);
         session_click_here(s, 2);
         session_type(s, word(step, 2));
         session_key(s, KEY_ENTER, 0);
-    } else if (strcmp(verb, "slide") == 0) {
-        slide(step);
-    } else if (strcmp(verb, "wheel") == 0) {
+    } else if (IS("wheel")) {
         session_wheel(s, (float)number(step, word(step, 1)));
-    } else if (strcmp(verb, "wait") == 0) {
+    } else if (IS("wait")) {
         for (int i = (int)number(step, word(step, 1)); i > 0; i--) session_frame(s);
-    } else if (strcmp(verb, "seek") == 0) {
+    } else if (IS("pass")) {
+        editor_advance(s->editor, number(step, word(step, 1)));
+    } else if (IS("seek")) {
         seek(s->editor, number(step, word(step, 1)));
         session_frame(s);
-    } else if (strcmp(verb, "pass") == 0) {
-        editor_advance(s->editor, number(step, word(step, 1)));
-    } else if (strcmp(verb, "keep") == 0) {
+    } else if (IS("keep")) {
         keep(s);
     } else {
         return false;
@@ -234,58 +227,51 @@ static void has(const struct played *step, const char *is, const char *part, boo
     if ((strstr(is, part) != NULL) != expected) WRONG(step, "it is \"%s\"", is);
 }
 
-static void finds(const struct played *step, bool expected)
-{
-    float xy[2];
-    if (find_place(step->s->editor, word(step, 1), xy, NULL) != expected)
-        WRONG(step, "%s", expected ? "it is not there" : "it is there");
-}
-
 static void steady(const struct played *step)
 {
     const double within = number(step, word(step, 1));
-    const wiggly_curve *curves;
-    int samples;
-    for (int i = curves_of(step->s, &curves, &samples) - 1; i >= 0; i--) {
-        for (int k = 0; k < samples; k++) {
-            if (!(fabs(curves[i].total[k] - kept_total[i][k]) <= within))
-                WRONG(step, "curve %d is %g at %d, %g before", i, curves[i].total[k], k, kept_total[i][k]);
-        }
+    int curves, samples;
+    kept_of(step->s, &curves, &samples);
+    for (int i = 0; i < curves * samples; i++) {
+        const double is = step->s->work.evaluation.curves[i / samples].total[i % samples];
+        const double was = kept_total[i / samples][i % samples];
+        if (!(fabs(is - was) <= within))
+            WRONG(step, "curve %d was %g at %d, is %g", i / samples, was, i % samples, is);
     }
 }
 
-/// The same for text; returns false if the step's first word is none of these.
+/// What text and status line tell; returns false if the step is none of this.
 static bool tells(const struct played *step)
 {
     struct session *s = step->s;
-    const char *verb = step->word[0], *label = history_undo_label(s->history);
-    if (strcmp(verb, "kept") == 0) {
+    const char *label = history_undo_label(s->history), *status = said(s->editor);
+    if (IS("kept")) {
         same(step, session_saved(s), s->kept);
-    } else if (strcmp(verb, "once") == 0) {
+    } else if (IS("once")) {
         const char *changed = session_saved(s);
         if (strcmp(changed, s->kept) == 0) WRONG(step, "%s", "nothing has changed");
         session_key(s, 'Z', MOD_CTRL);
         same(step, session_saved(s), s->kept);
         session_key(s, 'Y', MOD_CTRL);
         same(step, session_saved(s), changed);
-    } else if (strcmp(verb, "steady") == 0) {
+    } else if (IS("steady")) {
         steady(step);
-    } else if (strcmp(verb, "saves") == 0 || strcmp(verb, "omits") == 0) {
-        has(step, session_saved(s), step->rest, *verb == 's');
-    } else if (strcmp(verb, "said") == 0 && *step->rest) {
-        has(step, said(s->editor), step->rest, true);
-    } else if (strcmp(verb, "said") == 0 || strcmp(verb, "says") == 0) {
-        same(step, said(s->editor), step->rest);
-    } else if (strcmp(verb, "error") == 0) {
-        has(step, said(s->editor), step->rest, true);
-        if (!said_error(s->editor)) WRONG(step, "\"%s\" is no error", said(s->editor));
-    } else if (strcmp(verb, "label") == 0) {
+    } else if (IS("saves") || IS("omits")) {
+        has(step, session_saved(s), step->rest, IS("saves"));
+    } else if (IS("says") || (IS("said") && !*step->rest)) {
+        same(step, status, step->rest);
+    } else if (IS("said") || IS("error")) {
+        has(step, status, step->rest, true);
+        if (IS("error") && !said_error(s->editor)) WRONG(step, "\"%s\" is no error", status);
+    } else if (IS("label")) {
         same(step, label ? label : "", step->rest);
-    } else if (strcmp(verb, "shows") == 0 || strcmp(verb, "hides") == 0) {
+    } else if (IS("shows") || IS("hides")) {
         const struct draw_command *text = shown_text(s->editor, step->rest);
-        if ((text && text->clip.w > 0) != (*verb == 's')) WRONG(step, "%s", text ? "it is drawn" : "it is not drawn");
-    } else if (strcmp(verb, "finds") == 0 || strcmp(verb, "lacks") == 0) {
-        finds(step, *verb == 'f');
+        if ((text && text->clip.w > 0) != IS("shows")) WRONG(step, "%s", text ? "it is drawn" : "it is not drawn");
+    } else if (IS("finds") || IS("lacks")) {
+        float xy[2];
+        if (find_place(s->editor, word(step, 1), xy, NULL) != IS("finds"))
+            WRONG(step, "%s", IS("finds") ? "it is not there" : "it is there");
     } else {
         return false;
     }
@@ -416,7 +402,7 @@ static void play(struct played *step)
     if (step->count == 0) return;
     step->rest = step->text + strcspn(step->text, " ");
     step->rest += strspn(step->rest, " ");
-    if (!does(step) && !tells(step)) is_so(step);
+    if (!strokes(step) && !does(step) && !tells(step)) is_so(step);
 }
 
 void hands(struct session *s, const char *steps, ...)

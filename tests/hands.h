@@ -39,6 +39,19 @@
     for (const struct draw_command *c = drawn_by(editor)->commands, *end_##c = c + drawn_by(editor)->count;          \
          c < end_##c; c++)
 
+/// What is drawn: EACH_DRAWN(c, s->editor) { … c->kind … }.
+#define EACH_DRAWN(c, editor)                                                                                        \
+    for (const struct draw_command *c = drawn_by(editor)->commands, *end_##c = c + drawn_by(editor)->count;          \
+         c < end_##c; c++)
+
+/// A session for the statement that follows: IN_SESSION(s, session_open(s, scene)) { … s->document … }.
+#define IN_SESSION(s, opens) for (struct session a_##s, *s = &a_##s; s && (opens, true); session_close(s), s = NULL)
+
+/// What is drawn: EACH_DRAWN(c, s->editor) { … c->kind … }.
+#define EACH_DRAWN(c, editor)                                                                                        \
+    for (const struct draw_command *c = drawn_by(editor)->commands, *end_##c = c + drawn_by(editor)->count;          \
+         c < end_##c; c++)
+
 /// Plays the steps; fails with the first that is not so.
 void hands(struct session *s, const char *steps, ...) __attribute__((format(printf, 2, 3)));
 

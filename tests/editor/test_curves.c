@@ -127,13 +127,11 @@ TEST(a_knot_on_the_curve_keeps_it)
         session_open(s, scene);
         for (int frame = 5; frame <= kind->last; frame += 30) {
             const int k = frame < 20 ? 1 : frame < 50 ? 2 : 3;
-            hands(s, "seek %d; keep; key I; x.%d.frame %d; x.%d.posed 0; steady %g; key Ctrl+Z; kept", frame, k,
-                  frame, k, kind->change);
-            if (kind->swings)
-                hands(s, "key Shift+I; x.%d.frame %d; x.%d.posed 1; steady %g; key Ctrl+Z; kept", k, frame, k,
-                      kind->change);
-            else
-                hands(s, "key Shift+I; kept; said Only a wiggly spline");
+            hands(s, "seek %d; keep", frame);
+            for (int pose = 0; pose <= kind->swings; pose++)
+                hands(s, "key %s; x.%d.frame %d; x.%d.posed %d; steady %g; key Ctrl+Z; kept", pose ? "Shift+I" : "I",
+                      k, frame, k, pose, kind->change);
+            if (!kind->swings) hands(s, "key Shift+I; kept; said Only a wiggly spline");
         }
         session_close(s);
     }
@@ -161,43 +159,35 @@ SESSION_TEST(every_knot_is_drawn, session_open(s, FIVE))
 {
     session_frame(s);
     const struct drawlist *list = drawn_by(s->editor);
-    for (int i = 0; i < 2; i++) {
-        for (int k = 0; k < spline(s, i)->knot_count; k++) {
-            char target[32];
-            float x, y;
-            int drawn = 0;
-            snprintf(target, sizeof target, "knot(%s,%d)", spline(s, i)->name, k);
-            assert_done(editor_target(s->editor, target, &x, &y, &error));
-            for (int c = 0; c < list->count; c++) {
-                const struct draw_command *command = &list->commands[c];
-                if (command->kind != DRAW_CONVEX || command->count != 4) continue;
-                const float *p = list->points + 2 * command->first; // top, right, bottom, left
-                drawn += fabsf((p[0] + p[4]) / 2 - x) < 0.5f && fabsf((p[1] + p[5]) / 2 - y) < 0.5f;
-            }
-            if (drawn != 1) fail_msg("%s is drawn %d times", target, drawn);
+    for (int k = 0; k < 7; k++) {
+        char target[32];
+        float xy[2];
+        int drawn = 0;
+        snprintf(target, sizeof target, k < 5 ? "knot(sway,%d)" : "knot(up,%d)", k % 5);
+        session_where(s, target, xy);
+        EACH_DRAWN(c, s->editor)
+        {
+            if (c->kind != DRAW_CONVEX || c->count != 4) continue;
+            const float *p = list->points + 2 * c->first; // top, right, bottom, left
+            drawn += fabsf((p[0] + p[4]) / 2 - xy[0]) < 0.5f && fabsf((p[1] + p[5]) / 2 - xy[1]) < 0.5f;
         }
+        if (drawn != 1) fail_msg("%s is drawn %d times", target, drawn);
     }
 }
 
 /// Twelve curves that end at the same height in the lowest panel there is.
 TEST(labels_never_overlap)
 {
-    char scene[4096];
-    size_t at = (size_t)snprintf(scene, sizeof scene, "{'wiggly':1,'frames':[0,48],'splines':[");
-    for (int i = 0; i < 12; i++) {
-        at +=
-            (size_t)snprintf(scene + at, sizeof scene - at,
-                             "%s{'name':'s%d','mode':'cubic','knots':[{'frame':%d,'value':1}]}", i ? "," : "", i, i);
-    }
-    snprintf(scene + at, sizeof scene - at, "]}");
+    char scene[4096] = "{'frames':[0,48],'splines':[";
+    for (int i = 0; i < 12; i++)
+        sprintf(scene + strlen(scene), "%s{'name':'s%d','mode':'cubic','knots':[<%d 1>]}", i ? "," : "", i, i);
     struct session s;
-    panel_open(&s, scene, 640, 300);
-    const struct drawlist *list = drawn_by(s.editor);
+    panel_open(&s, strcat(scene, "]}"), 640, 300);
     const struct rect plot = layout_of(s.editor)->plot;
     float last = plot.y - 20;
     int labels = 0;
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
+    EACH_DRAWN(c, s.editor)
+    {
         bool beside = c->kind == DRAW_TEXT && c->x > plot.x + plot.w && c->x < layout_of(s.editor)->inspector.x;
         if (!beside || c->y < plot.y || c->y > plot.y + plot.h + 8) continue;
         assert_true(c->y - last > 13);
@@ -303,9 +293,10 @@ static int find_bands(const struct session *s, double ends[4][2])
     const float frame = curves_x(s->editor->curves, core, 1) - left;
     const uint32_t rgb = spline_list_color(core->document, core->focus.active) >> 8;
     int count = 0;
-    for (int i = 0; i < core->list.count && count < 4; i++) {
-        const struct draw_command *c = &core->list.commands[i];
-        if (c->kind != DRAW_RECT || c->color >> 8 != rgb || c->bounds.h < core->view.layout.plot.h - 1) continue;
+    EACH_DRAWN(c, s->editor)
+    {
+        if (count == 4 || c->kind != DRAW_RECT || c->color >> 8 != rgb || c->bounds.h < core->view.layout.plot.h - 1)
+            continue;
         ends[count][0] = (double)((c->bounds.x - left) / frame);
         ends[count++][1] = (double)((c->bounds.x + c->bounds.w - left) / frame);
     }
@@ -448,14 +439,9 @@ TEST(of_crowded_knots_some_are_marked_and_each_is_hit)
     struct session s;
     open_crowded(&s, 2400, 1, values, 3);
     int diamonds = 0;
-    const struct drawlist *list = drawn_by(s.editor);
-    for (int i = 0; i < list->count; i++) diamonds += list->commands[i].kind == DRAW_CONVEX;
-    assert_true(diamonds < 150);
-    assert_true(diamonds > 50);
-    for (int k = 1000; k < 1003; k++) {
-        hands(&s, "click knot(sway,%d)", k);
-        assert_int_equal(selection_single(selection_of(s.editor), spline(&s, 0)), k);
-    }
+    EACH_DRAWN(c, s.editor) diamonds += c->kind == DRAW_CONVEX;
+    assert_in_range(diamonds, 51, 149);
+    for (int k = 1000; k < 1003; k++) hands(&s, "click knot(sway,%d); selected 1; sway.%d.picked 1", k, k);
     session_close(&s);
 }
 
@@ -470,13 +456,10 @@ TEST(swings_finer_than_a_column_are_a_band)
     for (double frames = 6400; frames > 3200; frames *= 0.97) {
         s.editor->curves->view = (struct plotted){0, frames, -2, 2};
         session_frame(&s);
-        const struct drawlist *list = drawn_by(s.editor);
         const struct draw_command *band = NULL;
-        for (int i = 0; i < list->count; i++) {
-            if (list->commands[i].kind == DRAW_BAND && list->commands[i].width > 2.4f) band = &list->commands[i];
-        }
+        EACH_DRAWN(c, s.editor) if (c->kind == DRAW_BAND && c->width > 2.4f) band = c;
         if (!band) fail_msg("no band with %g frames in sight", frames);
-        const float *xy = list->points + 2 * band->first;
+        const float *xy = drawn_by(s.editor)->points + 2 * band->first;
         const float apart = (xy[2 * band->count - 2] - xy[0]) / (float)(band->count - 1);
         for (int c = 2; c + 3 < band->count; c++) {
             const float high = fminf(xy[2 * c + 1], xy[2 * c + 3]), low = fmaxf(xy[2 * c + 1], xy[2 * c + 3]);
@@ -487,7 +470,6 @@ TEST(swings_finer_than_a_column_are_a_band)
     }
     s.editor->curves->view = (struct plotted){0, 240, -2, 2};
     session_frame(&s);
-    const struct drawlist *list = drawn_by(s.editor);
-    for (int i = 0; i < list->count; i++) assert_int_not_equal(list->commands[i].kind, DRAW_BAND);
+    EACH_DRAWN(c, s.editor) assert_int_not_equal(c->kind, DRAW_BAND);
     session_close(&s);
 }

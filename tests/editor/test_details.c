@@ -66,9 +66,8 @@ SESSION_TEST(a_rig_has_the_colour_of_its_first_spline, panel_open(s, tail, 1280,
     unfold(s->editor, "section.rigs");
     session_frame(s);
     assert_true(widget_at(s->editor, "tail.0", &x, &y));
-    const struct drawlist *list = drawn_by(s->editor);
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
+    EACH_DRAWN(c, s->editor)
+    {
         found +=
             c->kind == DRAW_CONVEX && c->color == theme()->spline[0] && fabsf(c->bounds.y + c->bounds.h / 2 - y) < 2;
     }
@@ -78,14 +77,14 @@ SESSION_TEST(a_rig_has_the_colour_of_its_first_spline, panel_open(s, tail, 1280,
 /// Lines that are drawn within 10 pixels of a widget's middle.
 static int lines_at(struct session *s, const char *widget)
 {
-    const struct drawlist *list = drawn_by(s->editor);
     float x, y;
     int count = 0;
     assert_true(widget_at(s->editor, widget, &x, &y));
-    for (int i = 0; i < list->count; i++) {
-        const struct rect *b = &list->commands[i].bounds;
+    EACH_DRAWN(c, s->editor)
+    {
+        const struct rect *b = &c->bounds;
         const bool is_inside = b->x > x - 10 && b->x + b->w < x + 10 && b->y > y - 10 && b->y + b->h < y + 10;
-        count += list->commands[i].kind == DRAW_LINE && is_inside;
+        count += c->kind == DRAW_LINE && is_inside;
     }
     return count;
 }
@@ -148,12 +147,11 @@ SESSION_TEST(presets_look_alike_and_plain, panel_open(s, tail, 1280, 1400))
 {
     static const char *const presets[] = {"preset.cat", "preset.whip", "preset.heavy", "preset.jelly",
                                           "preset.antenna"};
-    const struct drawlist *list = drawn_by(s->editor);
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         float x, y;
         assert_true(widget_at(s->editor, presets[p], &x, &y));
-        for (int i = 0; i < list->count; i++) {
-            const struct draw_command *c = &list->commands[i];
+        EACH_DRAWN(c, s->editor)
+        {
             const bool covers = c->kind != DRAW_TEXT && c->bounds.w < 200 && rect_contains(c->bounds, x, y);
             if (covers && c->color == theme()->accent) fail_msg("%s stands out", presets[p]);
         }

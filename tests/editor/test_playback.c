@@ -177,15 +177,14 @@ SESSION_TEST(two_tails_are_told_apart,
 {
     session_frame(s);
     const struct rect stage = layout_of(s->editor)->stage;
-    const struct drawlist *list = drawn_by(s->editor);
     float x[2] = {0};
-    for (int i = 1; i < list->count; i++) {
-        const struct draw_command *command = &list->commands[i];
-        if (command->kind != DRAW_TEXT || !rect_contains(stage, command->x, command->y)) continue;
+    EACH_DRAWN(c, s->editor)
+    {
+        if (c->kind != DRAW_TEXT || !rect_contains(stage, c->x, c->y)) continue;
         for (int t = 0; t < 2; t++) {
-            if (strcmp(list->text + command->first, t ? "new" : "old") != 0) continue;
-            x[t] = command->x;
-            assert_int_equal(list->commands[i - 1].color, spline_list_color(s->document, t));
+            if (strcmp(drawn_by(s->editor)->text + c->first, t ? "new" : "old") != 0) continue;
+            x[t] = c->x;
+            assert_int_equal(c[-1].color, spline_list_color(s->document, t));
         }
     }
     assert_true(x[0] > 0 && x[1] > 0 && fabsf(x[0] - x[1]) > 100);

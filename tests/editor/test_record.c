@@ -188,12 +188,8 @@ TEST(k_shows_the_stage_as_it_was)
 /// Lines in the plot with this colour, whatever its opacity.
 static int count_lines(const struct session *s, uint32_t color)
 {
-    const struct drawlist *list = drawn_by(s->editor);
     int count = 0;
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
-        count += c->kind == DRAW_LINE && c->color >> 8 == color >> 8 && c->count > 100;
-    }
+    EACH_DRAWN(c, s->editor) count += c->kind == DRAW_LINE && c->color >> 8 == color >> 8 && c->count > 100;
     return count;
 }
 
@@ -216,11 +212,10 @@ SESSION_TEST(k_shows_the_curves_as_they_were, open_dog(s))
 
 static int count_marks(const struct session *s)
 {
-    const struct drawlist *list = drawn_by(s->editor);
     const float left = layout_of(s->editor)->inspector.x;
     int count = 0;
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
+    EACH_DRAWN(c, s->editor)
+    {
         count += c->kind == DRAW_RECT && c->color == theme_fade(theme()->playhead, 0.6f) && c->bounds.x > left;
     }
     return count;

@@ -56,7 +56,8 @@ TEST(one_click_remedies)
         assert_ptr_equal(hovered(s->editor), &thing_warning);
         assert_false(tooltip_is_shown(tooltip_of(s->editor)));
         hands(s,
-              "click warning(0); wait 1; warnings 0; %s; key Ctrl+Z; kept; warnings 1; label; key Ctrl+Y; warnings 0",
+              "click warning(0); wait 1; warnings 0; %s; key Ctrl+Z; kept; warnings 1; label; key Ctrl+Y; "
+              "warnings 0",
               warned[i].remedy);
         session_close(s);
     }
@@ -199,8 +200,8 @@ TEST(a_pose_at_the_peak_holds_where_limits_cannot)
     static const char *const scenes[] = {JUMPS("25000", ", 'mode': 'real'", ""), JUMPS("25000", "", "")};
     for (int is_complex = 0; is_complex < 2; is_complex++) {
         struct session session, *const s = &session;
-        double knot;
         session_open(s, scenes[is_complex]);
+        double knot;
         const double before = farthest(s, 0, &knot);
         hands(s, "keep; key W; sway.knots 4; sway.2.posed %d; sway.2.phase %s 0", is_complex, is_complex ? "!" : "");
         assert_near(fabs(s->document->splines[0]->knots[2].value), 1, 1e-12);
