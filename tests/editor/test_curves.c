@@ -178,9 +178,9 @@ SESSION_TEST(every_knot_is_drawn, session_open(s, FIVE))
 /// Twelve curves that end at the same height in the lowest panel there is.
 TEST(labels_never_overlap)
 {
-    char scene[4096] = "{'frames':[0,48],'splines':[";
+    char scene[4096] = "{'frames':[0,48], 'splines':[";
     for (int i = 0; i < 12; i++)
-        sprintf(scene + strlen(scene), "%s{'name':'s%d','mode':'cubic','knots':[<%d 1>]}", i ? "," : "", i, i);
+        sprintf(scene + strlen(scene), "%s{'name':'s%d', 'mode':'cubic', 'knots':[<%d 1>]}", i ? "," : "", i, i);
     struct session s;
     panel_open(&s, strcat(scene, "]}"), 640, 300);
     const struct rect plot = layout_of(s.editor)->plot;
@@ -272,8 +272,9 @@ SESSION_TEST(the_view_follows_a_longer_scene, session_open(s, FIVE))
 
 /// The active spline's imaginary part, too, is inside of the panel at first.
 SESSION_TEST(all_that_is_drawn_is_framed,
-             session_open(s, "{'wiggly': 1, 'frames': [0, 3], 'splines': [{'name': 'sway', 'frequency': 1,'damping': "
-                             "0.02, 'knots': [<0 0>, <1 0.3>,<2 0.58>]}]}"))
+             session_open(s,
+                          "{'wiggly': 1, 'frames': [0, 3], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': "
+                          "0.02, 'knots': [<0 0>, <1 0.3>, <2 0.58>]}]}"))
 {
     const struct curve_cache *cache = &s->editor->curves->cache;
     const struct rect *plot = &layout_of(s->editor)->plot;
@@ -306,7 +307,7 @@ static int find_bands(const struct session *s, double ends[4][2])
 /// The wind-up before a selected knot is a band: half a period, no longer than to the knot before, in a loop also round the seam.
 SESSION_TEST(the_wind_up_of_a_selected_knot_is_a_band,
              session_open(s, "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': "
-                             "1,'wind_up': 0.5, 'start': 'loop', 'knots': [<4 0>,<40 1>, <47 -1>]}]}"))
+                             "1, 'wind_up': 0.5, 'start': 'loop', 'knots': [<4 0>, <40 1>, <47 -1>]}]}"))
 {
     static const double expected[][2][2] = {{{0, 4}, {88, 96}}, {{28, 40}}, {{40, 47}}};
     double ends[4][2];
@@ -425,9 +426,9 @@ static void open_crowded(struct session *s, int knots, int gap, const int *value
 {
     static char scene[400000];
     char *end =
-        scene + sprintf(scene, "{'wiggly':1,'frames':[0,%d],'splines':[{'name':'sway','knots':[", knots * gap);
+        scene + sprintf(scene, "{'wiggly':1, 'frames':[0,%d], 'splines':[{'name':'sway', 'knots':[", knots * gap);
     for (int i = 0; i < knots; i++)
-        end += sprintf(end, "%s{'frame':%d,'value':%d}", i ? "," : "", gap * i, values[i % period]);
+        end += sprintf(end, "%s{'frame':%d, 'value':%d}", i ? "," : "", gap * i, values[i % period]);
     strcpy(end, "]}]}");
     session_open(s, scene);
 }

@@ -7,7 +7,7 @@
 
 static const char tail[] =
     "{'wiggly': 1, 'frames': [0, 120], 'splines': [{'name': 'sway', 'frequency': 1, 'knots': [<0 0.8>, <40 "
-    "-1>]},{'name': 'lift', 'frequency': 0.5, 'knots': [<20 0.4>]}], 'rigs': [{'type': 'tail', 'name': 'tail', "
+    "-1>]}, {'name': 'lift', 'frequency': 0.5, 'knots': [<20 0.4>]}], 'rigs': [{'type': 'tail', 'name': 'tail', "
     "'channels': [{'spline': 'sway', 'axis': 'side'}, {'spline': 'lift', 'axis': 'up', 'gain': 3}]}]}";
 
 /// How many frames a pixel is wide.

@@ -4,9 +4,9 @@
 #include "panel_session.h"
 
 static const char tail_scene[] = "{'wiggly': 1, 'frames': [0, 96], 'splines': [" PANEL_SPLINES
-                                 "],'rigs': [{'type': 'tail', 'name': 'tail', 'joints': 3, 'rest': [4, -2, 1], "
+                                 "], 'rigs': [{'type': 'tail', 'name': 'tail', 'joints': 3, 'rest': [4, -2, 1], "
                                  "'channels': [{'spline': 'sway', 'axis': 'side', 'lag': 6.5, 'gain': {'ramp': [[0, "
-                                 "3], [1, 9]]}},{'spline': 'lift', 'axis': 'up', 'lag': 5, 'gain': [1, 2, 3]}]}]}";
+                                 "3], [1, 9]]}}, {'spline': 'lift', 'axis': 'up', 'lag': 5, 'gain': [1, 2, 3]}]}]}";
 
 static const struct tail *tail_of(const struct session *s) { return document_tail(s->document, 0); }
 
@@ -20,13 +20,13 @@ SESSION_TEST(a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
 }
 
 static const char limb_scene[] =
-    "{'frames': [0, 96], 'splines': [{'name': 'bend', 'frequency': 1.1, 'damping': 0.1, 'knots': [<0 1>]},{'name': "
-    "'lift', 'frequency': 1.4, 'damping': 0.1, 'wind_up': 0.5, 'knots': []},{'name': 'led', 'frequency': {'spline': "
-    "'pace'}, 'damping': 0.2, 'knots': []},{'name': 'still', 'mode': 'real', 'frequency': 0, 'damping': 1.2, "
-    "'knots': []},{'name': 'breath', 'frequency': 0.5, 'damping': 0.1, 'knots': []},{'name': 'pace', 'mode': "
-    "'cubic', 'knots': [<0 2>]}],'rigs': [{'type': 'tail', 'name': 'brush', 'joints': 3, 'channels': [{'spline': "
-    "'bend', 'axis': 'side', 'lag': 6}, {'spline': 'lift', 'axis': 'up', 'lag': [1, -4, 2]},{'spline': 'led', "
-    "'axis': 'up', 'lag': 0}, {'spline': 'still', 'axis': 'side', 'lag': 3},{'spline': 'breath', 'axis': 'breath', "
+    "{'frames': [0, 96], 'splines': [{'name': 'bend', 'frequency': 1.1, 'damping': 0.1, 'knots': [<0 1>]}, {'name': "
+    "'lift', 'frequency': 1.4, 'damping': 0.1, 'wind_up': 0.5, 'knots': []}, {'name': 'led', 'frequency': {'spline': "
+    "'pace'}, 'damping': 0.2, 'knots': []}, {'name': 'still', 'mode': 'real', 'frequency': 0, 'damping': 1.2, "
+    "'knots': []}, {'name': 'breath', 'frequency': 0.5, 'damping': 0.1, 'knots': []}, {'name': 'pace', 'mode': "
+    "'cubic', 'knots': [<0 2>]}], 'rigs': [{'type': 'tail', 'name': 'brush', 'joints': 3, 'channels': [{'spline': "
+    "'bend', 'axis': 'side', 'lag': 6}, {'spline': 'lift', 'axis': 'up', 'lag': [1, -4, 2]}, {'spline': 'led', "
+    "'axis': 'up', 'lag': 0}, {'spline': 'still', 'axis': 'side', 'lag': 3}, {'spline': 'breath', 'axis': 'breath', "
     "'lag': 2}]}]}";
 
 /// Of bend, lift, led, still and breath. Ratios stay, 0 and what follows a spline too; a preset keeps the ratios of frequencies alone.
@@ -176,8 +176,8 @@ WALK(the_file_has_both_numbers_and_what_else_is_there,
 
 static const char POLES[] =
     "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'bandwidth': "
-    "0.1234, 'knots': [  <0 0>, <36 1>]},{'name': 'pace', 'mode': 'cubic', 'knots': [<0 1>]},{'name': 'pluck', "
-    "'mode': 'real', 'frequency': 1, 'damping': 0.08},{'name': 'lift', 'frequency': {'spline': 'pace'}, 'damping': "
+    "0.1234, 'knots': [  <0 0>, <36 1>]}, {'name': 'pace', 'mode': 'cubic', 'knots': [<0 1>]}, {'name': 'pluck', "
+    "'mode': 'real', 'frequency': 1, 'damping': 0.08}, {'name': 'lift', 'frequency': {'spline': 'pace'}, 'damping': "
     "0.2, 'knots': [  <10 1>]}], 'rigs': []}";
 
 static void open_poles(struct session *s, int spline)

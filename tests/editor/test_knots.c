@@ -5,8 +5,8 @@
 #include "scene/knots.h"
 
 static const char SWAY[] =
-    "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'frequency': 1,'damping': 0.1, 'knots': [<0 0>, "
-    "<12 1>,<24 -1>, <36 0.5>]}, {'name': 'up','mode': 'cubic', 'knots': [<6 0.25>]}]}";
+    "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'knots': [<0 0>, "
+    "<12 1>, <24 -1>, <36 0.5>]}, {'name': 'up', 'mode': 'cubic', 'knots': [<6 0.25>]}]}";
 
 WALK(a_double_click_inserts_at_the_pointer, session_open(s, SWAY),
      "click curve(sway,30,1.1); again; sway.frame 0 12 24 30 36; sway.3.value 1.1 ~1e-5;"
@@ -127,15 +127,15 @@ WALK(a_handle_does_not_flip, session_open(s, FIVE),
 
 /// Of handles that nearly touch the one under the pointer is pulled.
 WALK(the_nearest_handle_is_pulled,
-     session_open(s, "{'wiggly': 1, 'frames': [0, 240], 'splines': [{'name': 'sway', 'frequency': 1,'damping': 0.1, "
+     session_open(s, "{'wiggly': 1, 'frames': [0, 240], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, "
                      "'knots': [{'frame': 100, 'value': 0, 'slope': 0}, {'frame': 101, 'value': 0, 'slope': 0}]}]}"),
      "key Ctrl+A; carry handle(sway,0,1) 0 -60 5; sway.0.slope > 0.1; sway.1.slope 0 ~0; key Ctrl+Z;"
      "carry handle(sway,1,1) 0 -60 5; sway.1.slope > 0.1; sway.0.slope 0 ~0")
 
 /// The slope that a curve has does not change it, in a loop that swings about a moving equilibrium with a varying frequency, too.
 WALK(a_slope_of_a_varying_loop_is_the_curves,
-     session_open(s, "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'start': 'loop','frequency': "
-                     "{'spline': 'pace'}, 'equilibrium': {'spline': 'base'},'knots': [<8 1>, <30 -1>]},{'name': "
+     session_open(s, "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'start': 'loop', 'frequency': "
+                     "{'spline': 'pace'}, 'equilibrium': {'spline': 'base'}, 'knots': [<8 1>, <30 -1>]}, {'name': "
                      "'pace', 'mode': 'cubic', 'start': 'loop', 'knots': [<0 1>, <24 2>]}, {'name': 'base', 'mode': "
                      "'cubic', 'start': 'loop', 'knots': [<5 0>, <20 1>]}]}"),
      "keep; key Ctrl+A T; sway.sloped 1 1; sway.0.slope ! 0; steady 1e-4") // slopes are rounded
@@ -143,9 +143,9 @@ WALK(a_slope_of_a_varying_loop_is_the_curves,
 // --- several curves at once ---
 
 static const char THREE[] =
-    "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1,'damping': 0.1, 'knots': [<10 0>, "
-    "<20 1>,<30 -1>, <60 0>]},{'name': 'up', 'mode': 'cubic', 'limits': [-50, 60], 'knots': [<20 0.5>,<40 "
-    "-0.5>]},{'name': 'far', 'mode': 'cubic', 'knots': [<22 0.2>]}]}";
+    "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'knots': [<10 0>, "
+    "<20 1>, <30 -1>, <60 0>]}, {'name': 'up', 'mode': 'cubic', 'limits': [-50, 60], 'knots': [<20 0.5>, <40 "
+    "-0.5>]}, {'name': 'far', 'mode': 'cubic', 'knots': [<22 0.2>]}]}";
 
 /// A box around 20 of sway and up and 22 of far, and one that takes 30 of sway, too.
 #define BOX "box curve(sway,17,1.1) curve(sway,26,0.1);"
@@ -339,8 +339,8 @@ TEST(rows_scroll)
 // --- knots as text and on the clipboard: what is read, what is refused and with which words, and what pasting does ---
 
 static const char MARKED[] = "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': "
-                             "1,'damping': 0.1, 'knots': [<10 0>, {'frame': 20.5, 'value': 1, 'slope': "
-                             "2,'stiffness': 50}, <30 -1>, <40 0.5>,{'frame': 60, 'value': 0, 'mark': 'kept'}]}]}";
+                             "1, 'damping': 0.1, 'knots': [<10 0>, {'frame': 20.5, 'value': 1, 'slope': "
+                             "2, 'stiffness': 50}, <30 -1>, <40 0.5>, {'frame': 60, 'value': 0, 'mark': 'kept'}]}]}";
 
 static void assert_read(const char *text, const struct knot expected[2])
 {

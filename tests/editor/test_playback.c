@@ -103,9 +103,9 @@ SESSION_TEST(controls_are_clicked, open_at(s, 10))
 
 #define SWINGS(x)                                                                                                    \
     "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.02, 'start': "                    \
-    "'loop', 'knots': [<0 1>, <48 1>]},{'name': 'run', "                                                             \
+    "'loop', 'knots': [<0 1>, <48 1>]}, {'name': 'run', "                                                            \
     "'mode': 'cubic', 'start': 'loop', 'knots': [<0 0>, {'frame': 48, "                                              \
-    "'value': 9}]}],'rigs': [{'type': 'tail', 'name': 'tail', 'position': [" x ", 0.26, 0], "                        \
+    "'value': 9}]}], 'rigs': [{'type': 'tail', 'name': 'tail', 'position': [" x ", 0.26, 0], "                       \
     "'channels': [{'spline': 'sway', 'lag': 6, 'gain': 6}]}]}"
 
 /// Where the pointer was put, nothing is after a quarter of a second; the press still takes what it was put on. While the scene stands, what

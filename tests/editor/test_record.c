@@ -10,7 +10,7 @@
 
 static const char scene[] =
     "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1.2, 'damping': 0.25, 'bandwidth': 0.1, 'knots': "
-    "[{'frame': 0, 'value': 0.2, 'slope': 0}, <90 0.2>]}],'rigs': [{'type': 'tail', 'name': 'tail', 'position': [0, "
+    "[{'frame': 0, 'value': 0.2, 'slope': 0}, <90 0.2>]}], 'rigs': [{'type': 'tail', 'name': 'tail', 'position': [0, "
     "0.26, 0], 'channels': [{'spline': 'sway'}]}]}";
 
 enum { JOINTS = 24, X = 12, DRAGGED = 60, WATCHED = 150 };

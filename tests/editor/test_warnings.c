@@ -21,13 +21,14 @@ static const struct {
     const char *scene, *remedy;
 } warned[] = {
     // a jump within two frames, and a knot half a period later that asks for the same value again; it is calm enough
-    {WARNING_FAR, SCENE("72", "'frequency': 1, 'damping': 0.05, 'bandwidth': 0.05, 'knots': [<10 0>,<12 1>, <24 1>]"),
+    {WARNING_FAR,
+     SCENE("72", "'frequency': 1, 'damping': 0.05, 'bandwidth': 0.05, 'knots': [<10 0>, <12 1>, <24 1>]"),
      "sway.knots 3; sway.limits -1.2 1.2"},
     // half a period apart, and a start that costs nothing however hard it swings; no knot where calm does it
     {WARNING_FAR,
      SCENE("72", "'frequency': 1, 'mode': 'real', 'calm': 0, 'damping': 0.05, 'knots': [<10 1>, <22 1>]"),
      "sway.knots 2; sway.calm 1 ~0"},
-    {WARNING_RATE, SCENE("48", "'frequency': 9, 'damping': 0.1, 'bandwidth': 0.1, 'knots': [<10 0>,<12 1>, <14 0>]"),
+    {WARNING_RATE, SCENE("48", "'frequency': 9, 'damping': 0.1, 'bandwidth': 0.1, 'knots': [<10 0>, <12 1>, <14 0>]"),
      "substeps 2; sway.frequency 9 ~0"},
     // knots on both samples beside a slope: nothing is left for it to say
     {WARNING_SLOPE,
