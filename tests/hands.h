@@ -31,22 +31,6 @@
 
 #include "session.h"
 
-/// A knot of a scene's text.
-#define K(frame, value) "{\"frame\": " #frame ", \"value\": " #value "}"
-
-/// What is drawn: EACH_DRAWN(c, s->editor) { … c->kind … }.
-#define EACH_DRAWN(c, editor)                                                                                        \
-    for (const struct draw_command *c = drawn_by(editor)->commands, *end_##c = c + drawn_by(editor)->count;          \
-         c < end_##c; c++)
-
-/// What is drawn: EACH_DRAWN(c, s->editor) { … c->kind … }.
-#define EACH_DRAWN(c, editor)                                                                                        \
-    for (const struct draw_command *c = drawn_by(editor)->commands, *end_##c = c + drawn_by(editor)->count;          \
-         c < end_##c; c++)
-
-/// A session for the statement that follows: IN_SESSION(s, session_open(s, scene)) { … s->document … }.
-#define IN_SESSION(s, opens) for (struct session a_##s, *s = &a_##s; s && (opens, true); session_close(s), s = NULL)
-
 /// What is drawn: EACH_DRAWN(c, s->editor) { … c->kind … }.
 #define EACH_DRAWN(c, editor)                                                                                        \
     for (const struct draw_command *c = drawn_by(editor)->commands, *end_##c = c + drawn_by(editor)->count;          \

@@ -155,11 +155,10 @@ WALK(too_few_knots_are_told, session_open(s, EXTREME("")),
 
 SESSION_TEST(the_dice_rolls_another_motion, panel_open(s, SWINGING, 1280, 1200))
 {
-    const struct param *parameters = s->document->splines[0]->parameter;
     hands(s, "keep; click section.variation");
     const double before = s->world.evaluation->curves[0].total[20];
     hands(s, "click variation.roll; wait 1; sway@20 ! %.17g; sway@15 -0.9 ~0", before);
-    parameters = s->document->splines[0]->parameter;
+    const struct param *parameters = s->document->splines[0]->parameter;
     assert_near(parameters[PARAMETER_VARIATION].value, 0.3, 0);
     const double seed = parameters[PARAMETER_SEED].value;
     hands(s, "click variation.roll");
@@ -176,9 +175,9 @@ WALK(the_file_has_both_numbers_and_what_else_is_there,
 
 static const char POLES[] =
     "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'bandwidth': "
-    "0.1234, 'knots': [  <0 0>, <36 1>]}, {'name': 'pace', 'mode': 'cubic', 'knots': [<0 1>]}, {'name': 'pluck', "
+    "0.1234, 'knots': [<0 0>, <36 1>]}, {'name': 'pace', 'mode': 'cubic', 'knots': [<0 1>]}, {'name': 'pluck', "
     "'mode': 'real', 'frequency': 1, 'damping': 0.08}, {'name': 'lift', 'frequency': {'spline': 'pace'}, 'damping': "
-    "0.2, 'knots': [  <10 1>]}], 'rigs': []}";
+    "0.2, 'knots': [<10 1>]}], 'rigs': []}";
 
 static void open_poles(struct session *s, int spline)
 {

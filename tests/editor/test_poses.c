@@ -179,31 +179,30 @@ SESSION_TEST(a_still_knot_is_where_it_is_seen, session_open(s, RESTS_AT_2("<24 2
 enum { FRAMES = 240, EDITED = 200, MOST = 7 };
 
 /// Random knots; some are poses, still or have a slope. Some layouts loop, some swing about a moving equilibrium.
-static void write_scene(uint64_t *seed, char *text, size_t size)
+static void write_scene(uint64_t *seed, char *text)
 {
     const bool loops = uniform(seed) < 0.4, moves = uniform(seed) < 0.4;
     const int count = loops ? 1 + (int)(uniform(seed) * 6) : 3 + (int)(uniform(seed) * 4);
-    size_t n = (size_t)snprintf(text, size,
-                                "{'wiggly': 1, 'frames': [0, %d], 'splines': [{'name': 'sway', 'frequency': %.3f, "
-                                "'damping': %.3f, 'wind_up': %.2f, 'start': '%s', %s'knots': [",
-                                FRAMES, 0.4 + 2 * uniform(seed), 0.3 * uniform(seed), 0.3 + uniform(seed),
-                                loops ? "loop" : "free", moves ? "'equilibrium': {'spline': 'base'}, " : "");
+    text += sprintf(text,
+                    "{'wiggly': 1, 'frames': [0, %d], 'splines': [{'name': 'sway', 'frequency': %.3f, "
+                    "'damping': %.3f, 'wind_up': %.2f, 'start': '%s', %s'knots': [",
+                    FRAMES, 0.4 + 2 * uniform(seed), 0.3 * uniform(seed), 0.3 + uniform(seed),
+                    loops ? "loop" : "free", moves ? "'equilibrium': {'spline': 'base'}, " : "");
     for (int k = 0; k < count; k++) {
         const double what = uniform(seed);
         const int frame = 10 + 32 * k + (int)(20 * uniform(seed));
-        n += (size_t)snprintf(text + n, size - n, "%s{'frame': %d", k ? ", " : "", frame);
+        text += sprintf(text, "%s{'frame': %d", k ? ", " : "", frame);
         if (what < 0.1 && k > 0) {
-            n += (size_t)snprintf(text + n, size - n, ", 'still': true}");
+            text += sprintf(text, ", 'still': true}");
             continue;
         }
-        n += (size_t)snprintf(text + n, size - n, ", 'value': %.3f", 2 * uniform(seed) - 1);
-        if (what > 0.1 && what < 0.25) n += (size_t)snprintf(text + n, size - n, ", 'im': %.3f", uniform(seed) - 0.5);
-        if (what > 0.85 && k > 0) n += (size_t)snprintf(text + n, size - n, ", 'slope': %.3f", 4 * uniform(seed) - 2);
-        n += (size_t)snprintf(text + n, size - n, "}");
+        text += sprintf(text, ", 'value': %.3f", 2 * uniform(seed) - 1);
+        if (what > 0.1 && what < 0.25) text += sprintf(text, ", 'im': %.3f", uniform(seed) - 0.5);
+        if (what > 0.85 && k > 0) text += sprintf(text, ", 'slope': %.3f", 4 * uniform(seed) - 2);
+        text += sprintf(text, "}");
     }
-    snprintf(text + n, size - n,
-             "]}, {'name': 'base', 'mode': 'cubic', 'start': '%s', 'knots': [<0 0.3>, <90 -0.4>, <170 0.5>]}]}",
-             loops ? "loop" : "free");
+    sprintf(text, "]}, {'name': 'base', 'mode': 'cubic', 'start': '%s', 'knots': [<0 0.3>, <90 -0.4>, <170 0.5>]}]}",
+            loops ? "loop" : "free");
 }
 
 /// The kinds of edits, each of one knot.
@@ -258,7 +257,7 @@ TEST(an_edit_changes_nothing_beyond_the_next_knot)
         static char scene[4096];
         int frames[MOST], touched[2], poses = 0;
         for (int i = 0; i < 8; i++) uniform(&seed);
-        write_scene(&seed, scene, sizeof scene);
+        write_scene(&seed, scene);
         session_open(s, scene);
         const wiggly_curve *curve = &s->work.evaluation.curves[0];
         const char *original = session_saved(s);
