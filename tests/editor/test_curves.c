@@ -147,9 +147,10 @@ TEST(a_cubic_holds_its_last_value)
         session_open(s, FIVE);
         hands(s, "key %s; wait 1", ways[way]);
         const wiggly_curve *curve = &s->work.evaluation.curves[0];
-        assert_int_equal(curve->mode, WIGGLY_CUBIC);
-        for (int i = 60; i <= 96; i++) assert_near(curve->total[i], 0, 1e-12);
-        assert_true(fabs(curve->total[50]) > 0.01);
+        double most = 0; // behind the last knot
+        for (int i = 60; i <= 96; i++) most = fmax(most, fabs(curve->total[i]));
+        if (curve->mode != WIGGLY_CUBIC || !(most <= 1e-12) || fabs(curve->total[50]) <= 0.01)
+            fail_msg("%s: up to %g behind the last knot", ways[way], most);
         session_close(s);
     }
 }
