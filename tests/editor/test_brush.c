@@ -166,7 +166,10 @@ SESSION_TEST(modes_and_modifiers_do_what_they_say, open_studio(s, false))
     hands(s, "click erase.all; label Less amplitude");
     survey(s, 0, found);
     assert_near(exp(found[LEAST]), 0.01, 1e-4); // never turned round
+    const double lessened = found[MEAN];
     stroke(s, "", 100);
+    survey(s, 0, found);
+    assert_true(found[MEAN] > 0.5 * lessened); // erased, but for what the surface has moved
     hands(s, "click paint.clean");
     assert_true(paint_is_plain(paint_of(s)));
     hands(s, "label Remove paint; key Ctrl+Z");
