@@ -12,23 +12,11 @@
 #else
 #define M_PIq 3.141592653589793238462643383279502884Q
 typedef _Complex float __attribute__((mode(TC))) __complex128;
-__float128 cabsq(__complex128);
-__complex128 cexpq(__complex128);
-__float128 cimagq(__complex128);
-__complex128 conjq(__complex128);
-__float128 cosq(__float128);
-__float128 coshq(__float128);
-__float128 crealq(__complex128);
-__float128 expm1q(__float128);
-__float128 expq(__float128);
-__float128 fabsq(__float128);
-__float128 floorq(__float128);
-__float128 fmaxq(__float128, __float128);
-__float128 fminq(__float128, __float128);
-__float128 powq(__float128, __float128);
-__float128 sinhq(__float128);
-__float128 sinq(__float128);
-__float128 sqrtq(__float128);
+__complex128 cexpq(__complex128), conjq(__complex128);
+__float128 cabsq(__complex128), cimagq(__complex128), crealq(__complex128);
+__float128 cosq(__float128), coshq(__float128), expm1q(__float128), expq(__float128), fabsq(__float128);
+__float128 floorq(__float128), sinhq(__float128), sinq(__float128), sqrtq(__float128);
+__float128 fmaxq(__float128, __float128), fminq(__float128, __float128), powq(__float128, __float128);
 #endif
 
 typedef __float128 real;
@@ -43,6 +31,15 @@ struct textbook_poles {
     real natural;    ///< ω_n
     real d, k, turn; ///< turn: ω_d
 };
+
+/// Poles at a sample, with a damping ratio of at least `floor`.
+struct textbook_poles textbook_poles_at(const wiggly_desc *desc, int sample, real floor);
+
+/// The speed by two poles: w′ = P w(0) + Q w(h), forward or (h < 0) backward.
+struct textbook_speed {
+    number P, Q;
+};
+struct textbook_speed textbook_speed_of(const struct textbook_poles *at, real h);
 
 /// A problem and its solution x = u + w. The unknowns are Re w_k at 2k and Im w_k at 2k + 1, k from 0 at sample `first`.
 struct textbook {
@@ -68,8 +65,9 @@ struct textbook {
     real offset_speed[TEXTBOOK_MAX];                             ///< of what settling knots add to y
     number u[TEXTBOOK_MAX];
 
-    real band[2 * TEXTBOOK_MAX]
-             [TEXTBOOK_BAND]; ///< entry (i, i − n) at [i][n], rows by textbook_place(); read with textbook_entry()
+    int size; ///< unknowns of the system
+    bool folded; ///< its samples lie as 0, P − 1, 1, P − 2 …, so that neighbours across a loop's seam are close, too
+    real band[2 * TEXTBOOK_MAX][TEXTBOOK_BAND]; ///< places i and i − n at [i][n]; read with textbook_entry()
     real right[2 * TEXTBOOK_MAX], x[2 * TEXTBOOK_MAX];
     bool fixed[2 * TEXTBOOK_MAX], used[2 * TEXTBOOK_MAX];
 };

@@ -3,7 +3,7 @@
 #include "near.h"
 
 #include "spline/solver.h"
-#include "textbook_parts.h"
+#include "textbook.h"
 
 enum { SAMPLES = 241, MOST_KNOTS = 6, LAYOUTS = 200 };
 

@@ -3,7 +3,7 @@
 #include "near.h"
 
 #include "spline/poles.h"
-#include "textbook_parts.h"
+#include "textbook.h"
 #include <limits.h>
 
 static const double step = 1.0 / 30;
