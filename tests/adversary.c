@@ -1,4 +1,4 @@
-/// The adversary's problems.
+/// The adversary: its problems, what the textbook says of the solver's answers, and both as text.
 #include "adversary.h"
 #include "uniform.h"
 
@@ -56,35 +56,19 @@ static void set_spring(struct adversary_problem *p, wiggly_param k, wiggly_param
 /// Periods over the domain: none, a whole or a half number, few, many.
 static double some_periods(uint64_t *seed)
 {
-    switch (pick(seed, 5)) {
-    case 0:
-        return 0;
-    case 1:
-        return 0.5 * pick(seed, 13);
-    case 2:
-        return power(seed, -4, 0);
-    case 3:
-        return between(seed, 0, 4);
-    default:
-        return between(seed, 0, 30);
-    }
+    const int what = pick(seed, 5);
+    if (what == 0) return 0;
+    if (what == 1) return 0.5 * pick(seed, 13);
+    if (what == 2) return power(seed, -4, 0);
+    return between(seed, 0, what == 3 ? 4 : 30);
 }
 
 static double some_damping(uint64_t *seed)
 {
-    switch (pick(seed, 6)) {
-    case 0:
-    case 1:
-        return 0;
-    case 2:
-        return 0.03;
-    case 3:
-        return 1;
-    case 4:
-        return between(seed, 0, 2);
-    default:
-        return pick(seed, 3) ? between(seed, 0, 0.3) : between(seed, 1, 25);
-    }
+    const int what = pick(seed, 6);
+    if (what < 4) return (double[]){0, 0, 0.03, 1}[what];
+    if (what == 4) return between(seed, 0, 2);
+    return pick(seed, 3) ? between(seed, 0, 0.3) : between(seed, 1, 25);
 }
 
 static double some_bandwidth(uint64_t *seed) { return (double[]){0, 0.1, 1, uniform(seed)}[pick(seed, 4)]; }
@@ -158,6 +142,15 @@ static void make_mixed(struct adversary_problem *p, uint64_t *seed, int samples)
     make_knots(p, seed, size);
 }
 
+/// The filter, calm, and of so many the mode and the start.
+static void choose(struct adversary_problem *p, uint64_t *seed, int modes, int starts)
+{
+    p->desc.passive = (wiggly_passive)pick(seed, 2);
+    if (modes > 1) p->desc.mode = (wiggly_mode)pick(seed, modes);
+    if (starts > 1) p->desc.start = (wiggly_start)pick(seed, starts);
+    p->desc.calm = some_calm(seed);
+}
+
 static void make_adjacent(struct adversary_problem *p, uint64_t *seed)
 {
     wiggly_desc *d = &p->desc;
@@ -202,10 +195,7 @@ static void make_nyquist(struct adversary_problem *p, uint64_t *seed)
 {
     wiggly_desc *d = &p->desc;
     d->samples = 3 + pick(seed, 60);
-    d->passive = (wiggly_passive)pick(seed, 2);
-    d->mode = (wiggly_mode)pick(seed, 2);
-    d->start = (wiggly_start)pick(seed, 3);
-    d->calm = some_calm(seed);
+    choose(p, seed, 2, 3);
     double most = d->passive == WIGGLY_FILTER ? 1.5 : 0.499, f = between(seed, 0.3, most) / d->step;
     d->frequency = make_param(p, seed, f, 0);
     d->damping = make_param(p, seed, some_damping(seed), some_damping(seed));
@@ -218,10 +208,7 @@ static void make_from_zero(struct adversary_problem *p, uint64_t *seed)
 {
     wiggly_desc *d = &p->desc;
     d->samples = 4 + pick(seed, 60);
-    d->passive = (wiggly_passive)pick(seed, 2);
-    d->mode = (wiggly_mode)pick(seed, 2);
-    d->start = (wiggly_start)pick(seed, 3);
-    d->calm = some_calm(seed);
+    choose(p, seed, 2, 3);
     double f = power(seed, -2, -0.35) / d->step, end = pick(seed, 2) ? 0 : 0.5 * f;
     double *track = p->tracks[p->tracks_used++];
     int off = pick(seed, d->samples), on = off + 1 + pick(seed, d->samples - off);
@@ -352,9 +339,7 @@ static void make_alias(struct adversary_problem *p, uint64_t *seed)
 {
     wiggly_desc *d = &p->desc;
     d->samples = 10 + pick(seed, 100);
-    d->passive = (wiggly_passive)pick(seed, 2);
-    d->start = (wiggly_start)pick(seed, 3);
-    d->calm = some_calm(seed);
+    choose(p, seed, 1, 3);
     d->frequency.value = (0.5 * (1 + pick(seed, 4)) + between(seed, -1e-3, 1e-3)) / d->step;
     d->damping.value = some_damping(seed);
     d->bandwidth.value = 1;
@@ -366,9 +351,7 @@ static void make_jumps(struct adversary_problem *p, uint64_t *seed)
     wiggly_desc *d = &p->desc;
     d->samples = 60 + pick(seed, 400);
     d->mode = WIGGLY_REAL;
-    d->passive = (wiggly_passive)pick(seed, 2);
-    d->start = (wiggly_start)pick(seed, 3);
-    d->calm = some_calm(seed);
+    choose(p, seed, 1, 3);
     double *track = p->tracks[p->tracks_used++], now = 0;
     for (int i = 0; i < d->samples; i++) {
         if (pick(seed, 20) == 0) now = pick(seed, 3) ? power(seed, -3, -0.6) / d->step : 0;
@@ -409,9 +392,7 @@ static void make_resonant(struct adversary_problem *p, uint64_t *seed)
     wiggly_desc *d = &p->desc;
     d->samples = 20 + pick(seed, 300);
     d->start = WIGGLY_LOOP;
-    d->passive = (wiggly_passive)pick(seed, 2);
-    d->mode = (wiggly_mode)pick(seed, 2);
-    d->calm = some_calm(seed);
+    choose(p, seed, 2, 1);
     const int periods = 1 + pick(seed, 4), seam = d->samples - 1;
     d->frequency.value = (periods + (pick(seed, 2) ? 0 : between(seed, -1e-3, 1e-3))) / (seam * d->step);
     d->damping.value = (double[]){0, 1e-6, 0.03, 0.3}[pick(seed, 4)];
@@ -470,4 +451,189 @@ void adversary_direct(struct adversary_problem *p, uint64_t seed)
     if (pick(&seed, 4)) d->wind_up = pick(&seed, 3) ? 0.5 : power(&seed, -2, 2);
     const int rarely = 1 + pick(&seed, 5);
     for (int k = 0; k < d->knot_count; k++) p->knots[k].settles = !p->knots[k].still && pick(&seed, rarely) == 0;
+}
+
+// --- what the textbook says ------------------------------------------------------------------------------------------
+
+/// An answer of the textbook's, or the solver's, in arrays of its own.
+struct answer {
+    double total[ADVERSARY_MAX], re[ADVERSARY_MAX], im[ADVERSARY_MAX];
+};
+
+static double size_of(const struct answer *a, int n)
+{
+    double low = a->total[0], high = low;
+    for (int i = 1; i < n; i++) low = fmin(low, a->total[i]), high = fmax(high, a->total[i]);
+    return fmax(high - low, fmax(fabs(low), fabs(high)));
+}
+
+/// The largest difference in any column, relative to the larger of the total's range and magnitude. What it is the sum of (equilibrium
+/// and displacement) has last digits too: they do not count, and a total that is nearly nothing is measured against a millionth of them.
+static double error_of(const struct answer *a, const struct answer *exact, int n)
+{
+    double worst = 0, parts = 0;
+    for (int i = 0; i < n; i++) {
+        double off = fmax(fabs(a->total[i] - exact->total[i]), fabs(a->re[i] - exact->re[i]));
+        off = fmax(off, fabs(a->im[i] - exact->im[i]));
+        if (!(off <= worst)) worst = off;
+        parts = fmax(parts, fmax(fabs(exact->re[i]), fabs(exact->total[i] - exact->re[i])));
+        parts = fmax(parts, fabs(exact->im[i]));
+    }
+    return worst <= 0x1p-40 * parts ? 0 : worst / fmax(size_of(exact, n), 1e-6 * parts);
+}
+
+/// Whether the total is next to nothing beside what it is the sum of.
+static bool is_nothing(const struct answer *a, int n)
+{
+    double parts = 0;
+    for (int i = 0; i < n; i++) parts = fmax(parts, fmax(fabs(a->re[i]), fabs(a->total[i] - a->re[i])));
+    return size_of(a, n) < 1e-2 * parts;
+}
+
+/// Damped so little that rows of the energy weigh much alike.
+static bool is_tame(const wiggly_desc *d)
+{
+    for (int i = 0; i < d->samples; i++) {
+        if (at_sample(d->damping, i) > 2) return false;
+    }
+    return true;
+}
+
+static struct textbook book;
+
+/// How much more the curve changes, relatively, than the numbers that it is made of: the rounding of the poles alone costs any solver in
+/// doubles some 1e-16 of it.
+static double condition_of(const struct adversary_problem *p, wiggly_status status, const struct answer *exact)
+{
+    static struct answer changed;
+    static double track[ADVERSARY_MAX];
+    const double change = 1e-12;
+    wiggly_desc other = p->desc;
+    wiggly_param *params[] = {&other.frequency, &other.damping};
+    double worst = 0;
+    for (int i = 0; i < 2; i++) {
+        wiggly_param kept = *params[i];
+        for (int k = 0; kept.track && k < other.samples; k++) track[k] = kept.track[k] * (1 + change);
+        *params[i] = (wiggly_param){kept.value * (1 + change), kept.track ? track : NULL};
+        if (!textbook_as(&other, status, &book, changed.total, changed.re, changed.im)) return INFINITY;
+        worst = fmax(worst, error_of(&changed, exact, other.samples) / change);
+        *params[i] = kept;
+    }
+    return worst;
+}
+
+static double tolerance(const wiggly_desc *d) { return d->mode == WIGGLY_CUBIC ? 1e-9 : 1e-8; }
+
+/// The textbook's answer to what the solver says it solved, and whether that was the right thing to solve.
+static void find_exact(const struct adversary_problem *p, struct adversary_verdict *v, struct answer *a)
+{
+    bool asked = textbook_as(&p->desc, WIGGLY_OK, &book, a->total, a->re, a->im);
+    const double inverse = textbook_inverse(&book);
+    v->pivot = book.pivot;
+    v->growth = book.growth;
+    const bool is_blurred = !asked || inverse > 1e26 || book.pivot < 1e-20; // for 34 digits
+    v->undecided = book.open && v->said != WIGGLY_OK
+                       ? !asked && v->said != WIGGLY_CALMED && v->said != WIGGLY_LEVELLED
+                       : is_blurred;
+    v->borderline =
+        book.open && ((asked && (book.pivot < 1e-11 || inverse > 1e14)) || (book.growth > 300 && book.growth < 3e5));
+    v->exists = textbook_curve(&p->desc, &book, &v->status, a->total, a->re, a->im);
+    v->undecided = v->undecided || !v->exists;
+    if (!v->borderline || v->said == v->status || v->said == WIGGLY_SINGULAR) return;
+    bool as_asked = v->said == WIGGLY_INEXACT || v->said == WIGGLY_OK;
+    v->status = as_asked ? WIGGLY_OK : v->said;
+    v->exists = textbook_as(&p->desc, v->status, &book, a->total, a->re, a->im);
+}
+
+static const char *find_fault(const struct adversary_problem *p, struct adversary_verdict *v,
+                              const struct answer *exact)
+{
+    const bool inexact = v->said == WIGGLY_INEXACT;
+    if (v->said != v->status && !(inexact && v->status == WIGGLY_OK)) return "the wrong status";
+    if (!(v->estimate >= 0)) return "an estimate that is no number";
+    if (v->said == WIGGLY_OK && !(v->error <= tolerance(&p->desc))) return "OK, and off";
+    if (v->error > tolerance(&p->desc) && v->error > v->estimate) return "an estimate below the error";
+    if (!inexact) return NULL;
+    v->needless = true;
+    if (!(v->estimate > tolerance(&p->desc))) return "INEXACT by no estimate";
+    if (v->error > 0.05 * tolerance(&p->desc) || v->pivot <= 1e-9 || textbook_inverse(&book) > 1e14)
+        return NULL; // what is that far off may say so
+    if (is_nothing(exact, p->desc.samples) || !is_tame(&p->desc)) return NULL;
+    v->condition = condition_of(p, v->status, exact);
+    return v->condition < 1e4 ? "INEXACT, and easy" : NULL;
+}
+
+void adversary_judge(wiggly_solver *solver, const struct adversary_problem *p, struct adversary_verdict *v)
+{
+    static struct answer got, exact;
+    wiggly_curve curve = {.size = sizeof curve, .total = got.total, .re = got.re, .im = got.im};
+    *v = (struct adversary_verdict){.said = wiggly_solve(solver, &p->desc, &curve), .estimate = curve.error};
+    find_exact(p, v, &exact);
+    if (v->undecided) return;
+    if (v->said == WIGGLY_SINGULAR) {
+        v->fault = v->exists && !v->borderline ? "singular is not" : NULL;
+    } else if (!v->exists) {
+        v->fault = "an answer where there is none";
+    } else {
+        v->error = error_of(&got, &exact, p->desc.samples);
+        // Whether w is calmed depends on last digits where u is in any case.
+        if (v->said == WIGGLY_CALMED && v->borderline && v->error > tolerance(&p->desc) &&
+            textbook_as(&p->desc, WIGGLY_CALMED, &book, exact.total, exact.re, exact.im))
+            v->error = fmin(v->error, error_of(&got, &exact, p->desc.samples));
+        v->fault = find_fault(p, v, &exact);
+    }
+}
+
+// --- as text ---------------------------------------------------------------------------------------------------------
+
+/// A cubic with a knot on every sample: its total is the track, to the bit.
+static void print_track(FILE *out, const struct adversary_problem *p, int track)
+{
+    fprintf(out, "{\"name\": \"track%d\", \"mode\": \"cubic\", \"knots\": [", track);
+    for (int i = 0; i < p->desc.samples; i++)
+        fprintf(out, "%s{\"frame\": %d, \"value\": %.17g}", i ? ", " : "", i, p->tracks[track][i]);
+    fprintf(out, "]}, ");
+}
+
+static void print_param(FILE *out, const struct adversary_problem *p, const char *key, wiggly_param param)
+{
+    int track = 0;
+    while (param.track && p->tracks[track] != param.track) track++;
+    if (param.track) fprintf(out, ", \"%s\": {\"spline\": \"track%d\"}", key, track);
+    if (!param.track) fprintf(out, ", \"%s\": %.17g", key, param.value);
+}
+
+void adversary_print(FILE *out, const struct adversary_problem *p)
+{
+    static const char *const modes[] = {"complex", "real", "cubic"}, *const starts[] = {"free", "rest", "loop"};
+    const wiggly_desc *d = &p->desc;
+    fprintf(out, "{\"wiggly\": 1, \"fps\": %.17g, \"frames\": [0, %d], \"splines\": [", p->fps, d->samples - 1);
+    for (int t = 0; t < p->tracks_used; t++) print_track(out, p, t);
+    fprintf(out,
+            "{\"name\": \"problem\", \"mode\": \"%s\", \"start\": \"%s\", \"passive\": \"%s\", \"calm\": %.17g, "
+            "\"wind_up\": %.17g",
+            modes[d->mode], starts[d->start], d->passive == WIGGLY_FILTER ? "filter" : "oscillator", d->calm,
+            d->wind_up);
+    print_param(out, p, "frequency", d->frequency);
+    print_param(out, p, "damping", d->damping);
+    print_param(out, p, "bandwidth", d->bandwidth);
+    print_param(out, p, "equilibrium", d->equilibrium);
+    fprintf(out, ", \"knots\": [");
+    for (int k = 0; k < d->knot_count; k++) {
+        const wiggly_knot *knot = &d->knots[k];
+        fprintf(out, "%s{\"frame\": %d", k ? ", " : "", knot->sample);
+        if (knot->still) fprintf(out, ", \"still\": true");
+        if (!knot->still) fprintf(out, ", \"value\": %.17g", knot->value);
+        if (knot->settles) fprintf(out, ", \"settles\": true");
+        if (knot->has_phase) fprintf(out, ", \"im\": %.17g", knot->phase);
+        if (knot->has_slope) fprintf(out, ", \"slope\": %.17g, \"stiffness\": %.17g", knot->slope, knot->stiffness);
+        fprintf(out, "}");
+    }
+    fprintf(out, "]}]}\n");
+}
+
+void adversary_explain(FILE *out, const char *name, const struct adversary_verdict *v)
+{
+    fprintf(out, "%s: %s: said %d, is %d, off by %.3g, estimate %.3g, pivot %.3g, growth %.3g, condition %.2g\n",
+            name, v->fault, (int)v->said, (int)v->status, v->error, v->estimate, v->pivot, v->growth, v->condition);
 }
