@@ -1,13 +1,16 @@
 /// The solver against a textbook one in quadruple precision, on short splines of every pattern, long domains and long gaps. What it calls
 /// solved is within the tolerance of docs/mathematics.md; for all else the error that it tells is no smaller than the real one. The
-/// textbook's matrix itself is checked with LAPACKE.
+/// textbook's matrix itself is checked with LAPACKE, and so is what the benchmark times.
 #include "near.h"
 
+#include "bench/bench.h"
 #include "curve.h"
 #include "spline/solver.h"
 #include "textbook.h"
 #include "uniform.h"
 #include <lapacke.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 enum { MOST = 100000, SHORT = 40 };
 
@@ -22,11 +25,11 @@ static wiggly_knot knots[MOST];
 static double tracks[4][MOST];
 static struct textbook book;
 static double exact[3][MOST]; ///< total, Re x, Im x
+static const double *const is[3] = {exact[0], exact[1], exact[2]};
 static struct answer {
     wiggly_status status;
     double error; ///< relative to the largest total
     double told;
-    int sweeps;
 } answers[WAYS];
 
 static void begin(int samples, wiggly_mode mode, wiggly_start start)
@@ -68,10 +71,9 @@ static void solve(enum way way)
     struct answer *answer = &answers[way];
     answer->status = wiggly_solve(solvers[way], &desc, &curve);
     for (int k = 0; k < desc.knot_count; k++) assert_true(curve.total[desc.knots[k].sample] == desc.knots[k].value);
-    answer->told = curve.error, answer->sweeps = curve.refinements + 1;
-    const double *const is[3] = {exact[0], exact[1], exact[2]}, *const seen[3] = {curve.total, curve.re, curve.im};
+    answer->told = curve.error;
     double size;
-    answer->error = difference(is, seen, &size) / size;
+    answer->error = difference(is, (const double *const[]){curve.total, curve.re, curve.im}, &size) / size;
 }
 
 /// Judges all ways; the exact curve is found. What is not solved tells how far it may be off.
@@ -136,17 +138,6 @@ static void make_short(uint64_t *seed, int samples, uint64_t pattern, wiggly_mod
     }
 }
 
-/// Whether the textbook has an answer of its own: enough samples, and something to solve.
-static bool is_solvable(void)
-{
-    if (desc.knot_count == 0) return false;
-    const int earliest = knots[0].sample;
-    const int m = desc.start == WIGGLY_LOOP   ? desc.samples - 1
-                  : desc.start == WIGGLY_FREE ? desc.samples - earliest
-                                              : desc.samples;
-    return m >= 3 && (desc.start != WIGGLY_REST || earliest > 1);
-}
-
 /// The textbook's matrix by LAPACKE's banded Cholesky, in double; x into the book.
 static void solve_with_lapack(void)
 {
@@ -168,100 +159,108 @@ static void solve_with_lapack(void)
     for (int i = 0; i < n; i++) book.x[map[i]] = right[i];
 }
 
-struct tally {
-    int solved, lapack;
-};
+static int solved, by_lapack;
 
-static void compare_short(uint64_t seed, struct tally *tally)
+/// Judges the spline if the textbook has an answer of its own: enough samples, and something to solve.
+static void compare_short(uint64_t seed)
 {
-    static double by_lapack[3][SHORT];
-    if (!is_solvable() || !find_exact() || book.pivot <= 1e-13) return;
+    static double other[3][SHORT];
+    if (desc.knot_count == 0 || (desc.start == WIGGLY_REST && knots[0].sample <= 1)) return;
+    if (!find_exact() || book.count < 3 || book.pivot <= 1e-13) return;
     judge("the short spline of seed", (long)seed, 1e-9, false);
-    tally->solved++;
+    solved++;
     if (desc.start == WIGGLY_LOOP) return;
     solve_with_lapack();
-    textbook_fill(&book, by_lapack[0], by_lapack[1], by_lapack[2]);
-    const double *const is[3] = {exact[0], exact[1], exact[2]}, *const seen[3] = {by_lapack[0], by_lapack[1],
-                                                                                  by_lapack[2]};
+    textbook_fill(&book, other[0], other[1], other[2]);
     double size;
-    const double off = difference(is, seen, &size);
+    const double off = difference(is, (const double *const[]){other[0], other[1], other[2]}, &size);
     if (!(off <= 1e-5 * size)) fail_msg("seed %llu: LAPACKE off by %g of %g", (unsigned long long)seed, off, size);
-    tally->lapack++;
+    by_lapack++;
 }
 
 TEST(every_pattern_to_10_samples)
 {
-    struct tally tally = {0};
     uint64_t seed = 1;
+    solved = by_lapack = 0;
     for (int samples = 1; samples <= quick_or_all(8, 10); samples++) {
-        for (uint64_t pattern = 0; pattern < 1u << samples; pattern++) {
-            for (int kind = 0; kind < 9; kind++) {
-                const uint64_t before = seed;
-                make_short(&seed, samples, pattern, (wiggly_mode)(kind % 3), (wiggly_start)(kind / 3));
-                compare_short(before, &tally);
-            }
+        for (uint64_t n = 0; n < 9u << samples; n++) {
+            const uint64_t before = seed;
+            const int kind = (int)(n % 9);
+            make_short(&seed, samples, n / 9, (wiggly_mode)(kind % 3), (wiggly_start)(kind / 3));
+            compare_short(before);
         }
     }
-    assert_true(tally.solved > quick_or_all(3000, 13000) && tally.lapack > quick_or_all(1500, 7000));
+    assert_true(solved > quick_or_all(3000, 13000) && by_lapack > quick_or_all(1500, 7000));
 }
 
 TEST(random_patterns_to_40_samples)
 {
-    struct tally tally = {0};
     uint64_t seed = 2;
+    solved = by_lapack = 0;
     for (int samples = 11; samples <= SHORT; samples++) {
         for (int n = 0; n < quick_or_all(100, 500); n++) {
             uint64_t before = seed, pattern = 0;
-            double density = uniform(&seed);
+            const double density = uniform(&seed);
             for (int i = 0; i < samples; i++) pattern |= (uint64_t)(uniform(&seed) < density * density) << i;
-            wiggly_mode mode = (wiggly_mode)pick(&seed, 3);
+            const wiggly_mode mode = (wiggly_mode)pick(&seed, 3);
             make_short(&seed, samples, pattern, mode, (wiggly_start)pick(&seed, 3));
-            compare_short(before, &tally);
+            compare_short(before);
         }
     }
-    assert_true(tally.solved > quick_or_all(1900, 9500) && tally.lapack > quick_or_all(1100, 5500));
+    assert_true(solved > quick_or_all(1900, 9500) && by_lapack > quick_or_all(1100, 5500));
 }
 
-/// Too short for a row, or with no single answer: 0: one knot of a cubic; to 6: one and two samples, from 10 on of an equilibrium that moves, from 16 on with the filter; 7: undamped, knots half a period apart,
-/// calm 0, so any swing that is 0 at the knots costs nothing; 8: an undamped loop of two periods, whose phase is nobody's; 9: a spring that
-/// starts slack.
-static void make_corner(int n)
-{
-    const bool moves = n >= 10, filters = n >= 16;
-    if (moves) n -= filters ? 15 : 9;
-    const int samples = n == 0 ? 50 : n < 7 ? 1 + n % 2 : n == 7 ? 100 : n == 8 ? 49 : 60;
-    begin(samples,
-          n == 0   ? WIGGLY_CUBIC
-          : n < 7  ? (wiggly_mode)(n % 3)
-          : n == 7 ? WIGGLY_COMPLEX
-                   : WIGGLY_REAL,
-          n == 8 ? WIGGLY_LOOP : WIGGLY_FREE);
-    desc.frequency.value = 1;
-    desc.damping.value = n < 7 || n == 9 ? 0.05 : 0;
-    if (n >= 7 && n < 9) desc.bandwidth.value = desc.calm = 0;
-    if (n == 0) add_knot(20, 2);
-    if (n > 0 && n < 7) *add_knot(0, 4) = (wiggly_knot){.value = 4, .has_slope = true, .slope = 1, .stiffness = 10};
-    for (int k = 0; n == 7 && k < 3; k++) add_knot(12 * k, k == 2 ? 0.3 : 0);
-    if (n == 8) add_knot(5, 1);
-    for (int k = 0; n == 9 && k < 2; k++) add_knot(59 * k, 1e-9);
-    for (int k = 0; k < samples; k++) tracks[0][k] = k < 3 ? 0 : 1;
-    for (int k = 0; k < samples; k++) tracks[1][k] = sin(k + 1);
-    if (n == 9) desc.frequency.track = tracks[0];
-    if (moves) desc.equilibrium.track = tracks[1];
-    if (filters) desc.passive = WIGGLY_FILTER;
-}
+/// With no single answer, or next to none.
+static const struct corner {
+    int samples;
+    wiggly_mode mode;
+    wiggly_start start;
+    double damping;
+    bool is_open;      ///< no bandwidth, and calm 0
+    bool starts_slack; ///< no frequency at first
+    int count;
+    wiggly_knot knots[3];
+} corners[] = {
+    {50, WIGGLY_CUBIC, WIGGLY_FREE, 0.05, false, false, 1, {{.sample = 20, .value = 2}}},
+    // Undamped, knots half a period apart: any swing that is 0 at the knots costs nothing.
+    {100,
+     WIGGLY_COMPLEX,
+     WIGGLY_FREE,
+     0,
+     true,
+     false,
+     3,
+     {{.sample = 0}, {.sample = 12}, {.sample = 24, .value = 0.3}}},
+    // An undamped loop of two periods, whose phase is nobody's.
+    {49, WIGGLY_REAL, WIGGLY_LOOP, 0, true, false, 1, {{.sample = 5, .value = 1}}},
+    {60, WIGGLY_REAL, WIGGLY_FREE, 0.05, false, true, 2, {{.value = 1e-9}, {.sample = 59, .value = 1e-9}}},
+};
 
+/// And what is too short for a row: one or two samples of an equilibrium at rest, of one that moves, and of the filter on that.
 TEST(corners_have_the_textbooks_status)
 {
-    for (int n = 0; n < 22; n++) {
+    enum { SHORTEST = 18, CORNERS = sizeof corners / sizeof *corners };
+    for (int n = 0; n < SHORTEST + CORNERS; n++) {
+        const struct corner shortest = {1 + n % 2,   (wiggly_mode)(n % 3),
+                                        WIGGLY_FREE, 0.05,
+                                        false,       false,
+                                        1,           {{.value = 4, .has_slope = true, .slope = 1, .stiffness = 10}}},
+                            *c = n < SHORTEST ? &shortest : &corners[n - SHORTEST];
         wiggly_status status;
-        make_corner(n);
+        begin(c->samples, c->mode, c->start);
+        desc.frequency.value = 1, desc.damping.value = c->damping;
+        if (c->is_open) desc.bandwidth.value = desc.calm = 0;
+        desc.knots = c->knots, desc.knot_count = c->count;
+        for (int k = 0; k < c->samples; k++) tracks[0][k] = k < 3 ? 0 : 1, tracks[1][k] = sin(k + 1);
+        if (c->starts_slack) desc.frequency.track = tracks[0];
+        if (n < SHORTEST && n / 6 > 0) desc.equilibrium.track = tracks[1];
+        if (n < SHORTEST && n / 6 > 1) desc.passive = WIGGLY_FILTER;
         assert_true(textbook_curve(&desc, &book, &status, exact[0], exact[1], exact[2]));
         for (int w = 0; w < WAYS; w++) {
             const struct answer *a = &answers[w];
             solve((enum way)w);
             if (a->status == status && a->error <= 1e-8) continue;
-            if (n == 7 && status == WIGGLY_OK && a->status == WIGGLY_INEXACT && a->error <= a->told) continue;
+            if (c->is_open && status == WIGGLY_OK && a->status == WIGGLY_INEXACT && a->error <= a->told) continue;
             fail_msg("corner %d, %s: %s, not %s, off by %g", n, way_names[w], wiggly_status_text(a->status),
                      wiggly_status_text(status), a->error);
         }
@@ -276,9 +275,8 @@ struct subject {
     int samples, gap;
     bool slopes, irregular;
     wiggly_mode mode;
-    bool
-        is_lost; ///< so calm a start over gaps so long that the nodes' own system loses digits: shown, and said not to be exact
-    double most; ///< its error
+    double
+        most; ///< the error of one that is lost: so calm a start over gaps so long that the nodes' own system loses digits
 };
 
 static void make_long(const struct subject *c)
@@ -304,13 +302,13 @@ static void check_long(const struct subject *c)
     const bool is_hard = c->mode != WIGGLY_CUBIC && c->damping == 0 && c->bandwidth == 0;
     make_long(c);
     assert_true(find_exact());
-    judge("spline of samples", c->samples, c->mode == WIGGLY_CUBIC ? 1e-9 : 1e-8, is_hard || c->is_lost);
-    if (c->is_lost) {
+    judge("spline of samples", c->samples, c->mode == WIGGLY_CUBIC ? 1e-9 : 1e-8, is_hard || c->most > 0);
+    if (c->most > 0) {
         assert_int_equal(answers[USUAL].status, WIGGLY_INEXACT);
         assert_near(answers[USUAL].error, 0, c->most);
     }
-    print_message("mode %d f %-6g zeta %-4g beta %-4g %6d samples, gap %6d: %.1e, %d sweeps\n", c->mode, c->frequency,
-                  c->damping, c->bandwidth, c->samples, c->gap, answers[USUAL].error, answers[USUAL].sweeps);
+    print_message("mode %d f %-6g zeta %-4g beta %-4g %6d samples, gap %6d: %.1e\n", c->mode, c->frequency,
+                  c->damping, c->bandwidth, c->samples, c->gap, answers[USUAL].error);
 }
 
 TEST(every_mode_at_every_length)
@@ -348,10 +346,10 @@ TEST(slow_and_lost_splines)
         {0.775, 0.05, 0.1, 1, 240, .gap = 60}, // just fast enough
         {0.775, 0, 0, 1, 240, .gap = 150},
         {0.775, 0, 0, 1e-3, 240, .gap = 31},
-        {0.7, 0.1, 0.1, 1e-25, 3000, .gap = 300, .is_lost = true, .most = 1e-8},
-        {0.2, 0, 0.1, 1e-10, 1500, .gap = 400, .is_lost = true, .most = 1e-4},
-        {0.2, 0.3, 0, 1e-20, 1205, .gap = 415, .is_lost = true, .most = 1e-4},
-        {0.2, 0, 0.3, 1e-20, 1200, .gap = 1000, .is_lost = true, .most = 1e-2},
+        {0.7, 0.1, 0.1, 1e-25, 3000, .gap = 300, .most = 1e-8},
+        {0.2, 0, 0.1, 1e-10, 1500, .gap = 400, .most = 1e-4},
+        {0.2, 0.3, 0, 1e-20, 1205, .gap = 415, .most = 1e-4},
+        {0.2, 0, 0.3, 1e-20, 1200, .gap = 1000, .most = 1e-2},
     };
     for (size_t s = 0; s < sizeof subjects / sizeof *subjects; s++) {
         if (is_thorough() || subjects[s].samples <= 10000) check_long(&subjects[s]);
@@ -377,16 +375,16 @@ static struct subject some_subject(uint64_t seed)
 
 TEST(no_long_spline_is_called_exact_that_is_not)
 {
-    int solved = 0;
+    int exactly = 0;
     const int subjects = quick_or_all(40, 200);
     for (int seed = 0; seed < subjects; seed++) {
         const struct subject c = some_subject((uint64_t)seed);
         make_long(&c);
         assert_true(find_exact());
         judge("the long spline of seed", seed, 1e-8, true);
-        solved += answers[USUAL].status == WIGGLY_OK;
+        exactly += answers[USUAL].status == WIGGLY_OK;
     }
-    assert_in_range(solved, subjects * 8 / 10, subjects);
+    assert_in_range(exactly, subjects * 8 / 10, subjects);
 }
 
 // --- what the squared matrix cannot settle ---------------------------------------------------------------------------
@@ -495,6 +493,61 @@ TEST(the_chain_of_one_or_two_periods)
         judge("the spline of one or two periods", kind, 1e-9, false);
         if (kind % 4 > 0 && desc.start != WIGGLY_LOOP) assert_true(solvers[USUAL]->chain.im_weight > 0);
     }
+}
+
+// --- the benchmark's own check ---------------------------------------------------------------------------------------
+
+static struct bench bench;
+
+static void make_timed(wiggly_mode mode, wiggly_start start)
+{
+    begin(200, mode, start);
+    desc.step = 1.0 / 30;
+    desc.frequency.value = 1, desc.damping.value = desc.bandwidth.value = 0.1;
+    add_knot(0, 1), add_knot(60, -0.5), add_knot(150, 2);
+}
+
+/// What is timed is right, and what LAPACK is timed on are the same systems: it could solve neither otherwise.
+TEST(what_is_timed_agrees_with_lapack)
+{
+    bench_open(&bench);
+    for (int k = 0; k < 4; k++) {
+        const wiggly_mode mode = k < 3 ? (wiggly_mode)k : WIGGLY_COMPLEX;
+        struct bench_result result = bench_blank(mode, 0);
+        make_timed(mode, k < 3 ? WIGGLY_FREE : WIGGLY_LOOP);
+        bench_case(&bench, &desc, false, &result);
+        assert_int_equal(result.samples, 200);
+        assert_true(result.error <= 1e-6);
+        assert_true(result.ns_per_sample > 0 && result.band_ns_per_sample > 0);
+        assert_true(result.p50_us <= result.p99_us && 1e3 * result.p50_us >= 0.999 * result.ns_per_sample * 200);
+        if (strstr(bench.blas, "not ")) continue; // it says why there is none
+        assert_int_equal(result.dpbsv_ns_per_sample > 0, k < 3);
+    }
+    lapack_unload(&bench.lapack);
+}
+
+TEST(what_cannot_be_solved_is_no_figure)
+{
+    static char says[4096];
+    int end[2], status;
+    size_t length = 0;
+    assert_int_equal(pipe(end), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        struct bench_result result = {.name = "twice"};
+        make_timed(WIGGLY_COMPLEX, WIGGLY_FREE);
+        knots[1].sample = 0;
+        dup2(end[1], STDERR_FILENO);
+        bench_case(&bench, &desc, false, &result);
+        _exit(0);
+    }
+    close(end[1]);
+    assert_true(child > 0);
+    for (ssize_t got; (got = read(end[0], says + length, sizeof says - 1 - length)) > 0;) length += (size_t)got;
+    close(end[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) != 0);
+    assert_non_null(strstr(says, "twice"));
 }
 
 static int create(void **state)
