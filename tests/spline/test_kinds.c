@@ -333,6 +333,42 @@ static struct {
     wiggly_solver *solver;
 } used;
 
+/// All values as large, or as small, as numbers can hardly be: the same curve in another unit, to the bit.
+static void check_scaled(int i)
+{
+    static double y[SAMPLES], numbers[5 * SAMPLES];
+    static float floats[SAMPLES];
+    const double scale = i % 2 ? 0x1p600 : 0x1p-600;
+    wiggly_desc desc = ones[i].desc;
+    bool has_size = desc.variation == 0; // a variation is a share of the farthest knot, or of 1
+    for (int k = 0; k < desc.knot_count; k++) has_size = has_size || !desc.knots[k].still;
+    if (!has_size) return;
+    wiggly_knot knots[KNOTS];
+    wiggly_curve curve = curve_of(numbers);
+    for (int k = 0; k < desc.knot_count; k++) {
+        knots[k] = desc.knots[k];
+        knots[k].value *= scale, knots[k].slope *= scale, knots[k].phase *= scale;
+    }
+    for (int k = 0; k < SAMPLES; k++) y[k] = scale * (desc.equilibrium.track ? desc.equilibrium.track[k] : 0);
+    desc.knots = knots;
+    if (desc.equilibrium.track) desc.equilibrium.track = y;
+    desc.equilibrium.value *= scale, desc.low *= scale, desc.high *= scale;
+    memset(floats, 0x5A, sizeof floats);
+    const float untouched = floats[0];
+    curve.floats = floats;
+    const wiggly_status status = wiggly_solve(used.solver, &desc, &curve);
+    const bool is_filled = status < WIGGLY_ERROR_ARGUMENT;
+    bool same = true;
+    for (int k = 0; k < SAMPLES; k++)
+        same = same && (is_filled && k < desc.samples ? floats[k] == (float)curve.total[k] : floats[k] == untouched);
+    for (int k = 0; is_filled && k < 4 * SAMPLES; k++) {
+        if (k % SAMPLES < desc.samples) numbers[k] /= scale; // not ω
+    }
+    if (!same) fail_msg("%s: spline %d has other floats", what, i);
+    if (desc.has_low || desc.has_high) curve.error = ones[i].curve.error; // the search tells another bound
+    check_same("in another unit", i, status, &curve);
+}
+
 /// One after the other, each as it is and then in ways that do not matter.
 static void check_used(void)
 {
@@ -351,6 +387,7 @@ static void check_used(void)
         const wiggly_status there = wiggly_solve(used.solver, desc, &curve);
         leave_strange_host();
         check_same("in a strange host", i, there, &curve);
+        check_scaled(i);
         wiggly_knot turned[KNOTS];
         for (int k = 0; k < desc->knot_count; k++) turned[k] = desc->knots[desc->knot_count - 1 - k];
         if (ones[i].status < WIGGLY_ERROR_ARGUMENT) desc->knots = turned; // else it names one

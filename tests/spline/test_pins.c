@@ -136,6 +136,34 @@ static const double *solve_alone(const struct random_group *g, int s, wiggly_sta
     return numbers;
 }
 
+/// All values as large, or as small, as numbers can hardly be: the same motion in another unit, to the bit.
+static void check_scaled(const struct random_group *g, wiggly_group *group, unsigned which)
+{
+    static struct random_group other;
+    const double scale = which % 2 ? 0x1p600 : 0x1p-600;
+    bool same = true;
+    other = *g;
+    for (int s = 0; s < g->splines; s++) {
+        other.descs[s].knots = other.knots[s];
+        if (g->descs[s].equilibrium.track) other.descs[s].equilibrium.track = other.track;
+        for (int k = 0; k < KNOTS; k++) other.knots[s][k].value *= scale, other.knots[s][k].slope *= scale;
+    }
+    for (int i = 0; i < SAMPLES; i++) other.track[i] *= scale;
+    for (int i = 0; i < 3 * g->pins; i++) other.pin[i / 3].to[i % 3] *= scale;
+    for (int b = 0; b < g->bounds; b++) other.bound[b].least *= scale;
+    assert_int_equal(solve_in(group, &other, WIGGLY_CHAIN), WIGGLY_OK);
+    for (int s = 0; s < g->splines; s++) {
+        for (int i = 0; i < 4 * g->samples; i++) same = same && other.numbers[s][i] / scale == g->numbers[s][i];
+    }
+    for (int i = 0; i < 3 * g->pins; i++)
+        same = same && other.pin[i / 3].left[i % 3] / scale == g->pin[i / 3].left[i % 3];
+    for (int b = 0; b < g->bounds; b++) {
+        same = same && other.bound[b].left / scale == g->bound[b].left;
+        same = same && other.bound[b].push / scale == g->bound[b].push;
+    }
+    if (!same) fail_msg("group %u is another one in another unit", which);
+}
+
 static const wiggly_knot *knot_at(const struct random_group *g, int s, int sample)
 {
     for (int k = 0; k < g->descs[s].knot_count; k++) {
@@ -402,6 +430,7 @@ TEST(bounds_alone_push_and_only_where_they_are_touched)
         }
         check_knots(g, 1e-12);
         for (int s = 0; s < g->splines; s++) check_pushed(g, s);
+        check_scaled(g, group, n);
     }
     wiggly_group_destroy(group);
     assert_true(touched[0] > 40 && touched[1] > 12 && touched[2] > 12);
@@ -422,6 +451,7 @@ TEST(nothing_that_is_kept_changes_a_bit)
         memcpy(fresh, g->numbers, sizeof fresh);
         assert_int_equal(solve_in(group, g, WIGGLY_CHAIN), WIGGLY_OK);
         assert_memory_equal(fresh, g->numbers, sizeof fresh);
+        check_scaled(g, group, n);
         g->pins = 0;
         assert_int_equal(solve_in(group, g, WIGGLY_CHAIN), WIGGLY_OK);
         for (int s = 0; s < 4; s++) {
