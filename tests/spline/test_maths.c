@@ -225,7 +225,7 @@ TEST(a_spring_is_a_frequency_and_a_damping)
         const wiggly_poles at = wiggly_poles_at(&desc, 0);
         const double sum = at.s[0][0] + at.s[1][0], product = at.s[0][0] * at.s[1][0] - at.s[0][1] * at.s[1][1];
         assert_near(sum, -gamma, 1e-14 * gamma);
-        assert_near(product, k, k > 0 ? 1e-14 * k : 1e-15 * gamma);
+        assert_near(product, k, k > 0 ? 1e-14 * k : 1e-15 * gamma * gamma);
         if (k == 0 && gamma == 0) assert_true(desc.frequency.value == 0 && desc.damping.value == 0);
     }
 }

@@ -219,6 +219,14 @@ static const double (*pull_on(const struct random_group *g, int p, int s))[2]
     return NULL;
 }
 
+static bool moves(const struct random_group *g, int p, int s)
+{
+    const double(*c)[2] = pull_on(g, p, s);
+    bool any = false;
+    for (int i = 0; i < 6; i++) any = any || c[i / 2][i % 2] != 0;
+    return any;
+}
+
 /// Forces along x, y and z of the pins at one sample, by least squares: what pulls on the splines there.
 struct forces {
     int count, rows;
@@ -258,6 +266,7 @@ static void check_pinned(const struct random_group *g, int s, struct forces *at)
     for (int p = 0; p < g->pins; p++) {
         const int sample = g->pin[p].sample;
         int k = 0;
+        if (!moves(g, p, s)) continue;
         while (k < desc.knot_count && posed[k].sample != sample) k++;
         if (k == desc.knot_count)
             posed[desc.knot_count++] = (wiggly_knot){.sample = sample, .value = curve->total[sample]};
@@ -271,7 +280,7 @@ static void check_pinned(const struct random_group *g, int s, struct forces *at)
     const int unknowns = 2 * (book.tied ? book.last - book.first + 1 : book.count);
     for (int p = 0; p < g->pins && book.count >= 3; p++) { // shorter domains pass over their pins
         const int sample = g->pin[p].sample;
-        for (int part = 0; part < 2; part++) {
+        for (int part = 0; part < 2 && moves(g, p, s); part++) {
             if (part == 0 ? knot_at(g, s, sample) != NULL : desc.mode != WIGGLY_COMPLEX) continue;
             real size = 0;
             struct forces *f = &at[p];
@@ -297,6 +306,7 @@ TEST(nothing_pulls_but_the_pins)
         struct random_group *g = make_group(n, 2 + below(4), 1 + below(6));
         memset(at, 0, sizeof at);
         for (int p = 0; p < g->pins; p += 2) turn_pulls(g, p);
+        if (n % 3 == 2) memset(g->pulls[0][n % 2].c, 0, sizeof g->pulls[0][0].c); // it moves one spline less
         if (solve_in(NULL, g, n % 2 ? WIGGLY_BAND : WIGGLY_CHAIN) != WIGGLY_OK) fail_msg("group %u", n);
         check_knots(g, 0);
         for (int s = 0; s < g->splines; s++) check_pinned(g, s, at);
