@@ -11,7 +11,7 @@
 #include <dirent.h>
 #include <jansson.h>
 
-enum { MOST_SPLINES = 8, MOST_PINS = 40, MOST_KNOTS = 64 };
+enum { MOST_SPLINES = 8, MOST_PINS = 40, MOST_KNOTS = 64, WAYS = 3 };
 
 static struct textbook book;
 
@@ -117,14 +117,18 @@ static void check_scene(const char *path)
     struct document *document = document_of_file(name);
     const int samples = document_samples(document), columns = 1 + 3 * document->spline_count;
     double *table = table_of(path, document->spline_count, samples);
-    struct evaluation ways[] = {{.solver = SOLVER_CHAIN}, {.solver = SOLVER_BAND}};
-    for (int w = 0; w < 2; w++) evaluation_update(&ways[w], document, false);
+    const char *const names[WAYS] = {"chain", "band", samples <= SOLVER_LONGEST_BAND ? "band" : "chain"};
+    struct evaluation ways[WAYS] = {{.solver = SOLVER_CHAIN}, {.solver = SOLVER_BAND}, {.solver = SOLVER_BY_LENGTH}};
+    for (int w = 0; w < WAYS; w++) {
+        evaluation_update(&ways[w], document, false);
+        assert_string_equal(evaluation_solver(&ways[w]), names[w]);
+    }
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *of = document->splines[s];
         const bool is_calmed = strstr(path, "/loop_resonant") && strcmp(of->name, "x") == 0;
         const wiggly_status expected = is_calmed ? WIGGLY_CALMED : WIGGLY_OK;
         const double tolerance = spline_mode(of) == WIGGLY_CUBIC ? 1e-9 : 1e-8;
-        for (int w = 0; w < 2; w++) {
+        for (int w = 0; w < WAYS; w++) {
             const double worst = curve_error(&ways[w].curves[s], table + 1 + 3 * s, columns);
             if (!(worst <= tolerance) || ways[w].status[s] != expected)
                 fail_msg("%s, %s, by the %s: %s, off by %g of its range", path, of->name, evaluation_solver(&ways[w]),
@@ -135,7 +139,7 @@ static void check_scene(const char *path)
         if (samples <= TEXTBOOK_MAX) check_textbook(path, document, &ways[0], s, table, expected);
     }
     checked += samples <= TEXTBOOK_MAX;
-    for (int w = 0; w < 2; w++) evaluation_free(&ways[w]);
+    for (int w = 0; w < WAYS; w++) evaluation_free(&ways[w]);
     free(table);
     document_destroy(document);
 }
@@ -201,40 +205,6 @@ TEST(the_textbook_meets_every_small_problem)
     }
     fclose(file);
     assert_true(problems >= 24);
-}
-
-/// An undamped spline between two knots far apart, and after them: the band and the chain have one curve.
-TEST(long_gaps_lose_nothing)
-{
-    static const struct {
-        int gap, after;
-        const char *more;
-    } rows[] = {{300, 40, ""},
-                {2000, 40, ""},
-                {200, 400, ", \"mode\": \"real\""},
-                {200, 400, ""},
-                {400, 40, ", \"passive\": \"filter\""},
-                {400, 40, ", \"damping\": {\"spline\": \"pace\"}"}};
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
-        char text[400];
-        snprintf(
-            text, sizeof text,
-            "{\"wiggly\": 1, \"fps\": 60, \"frames\": [0, %d], \"splines\": ["
-            "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 2}]},"
-            "{\"name\": \"x\", \"frequency\": 2, \"bandwidth\": 0.02, "
-            "\"knots\": [{\"frame\": %d, \"value\": 1, \"im\": 0.3}, {\"frame\": 0, \"value\": 0, \"im\": 0}]%s}]}",
-            rows[r].gap + rows[r].after, rows[r].gap, rows[r].more);
-        struct document *document = document_of_text(text);
-        struct evaluation own = {0}, chain = {.solver = SOLVER_CHAIN};
-        evaluation_update(&own, document, false);
-        evaluation_update(&chain, document, false);
-        assert_string_equal(evaluation_solver(&own), "band");
-        const double between = apart(&own.curves[1], &chain.curves[1]);
-        if (!(between <= 1e-8)) fail_msg("row %zu: %g of the range apart", r, between);
-        evaluation_free(&own);
-        evaluation_free(&chain);
-        document_destroy(document);
-    }
 }
 
 // --- groups with pins ------------------------------------------------------------------------------------------------
