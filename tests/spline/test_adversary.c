@@ -44,6 +44,12 @@ TEST(problems_of_every_kind)
         {"slow loops", ADVERSARY_SLOW, 150},
         {"undamped chains", ADVERSARY_CHAIN, 20},
         {"long splines", ADVERSARY_LONG, 20},
+        {"damping near 1", ADVERSARY_CRITICAL, 80},
+        {"frequencies that alias", ADVERSARY_ALIAS, 80},
+        {"frequencies that jump", ADVERSARY_JUMPS, 80},
+        {"slopes on the last sample", ADVERSARY_LAST, 80},
+        {"any stiffness", ADVERSARY_STIFF, 80},
+        {"loops in resonance", ADVERSARY_RESONANT, 80},
     };
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         const int problems = quick_or_all(rows[r].problems / 8, 2 * rows[r].problems);
