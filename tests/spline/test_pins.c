@@ -319,7 +319,8 @@ TEST(nothing_pulls_but_the_pins)
     double told = 0;
     for (unsigned n = 0; n < 200; n++) {
         static struct forces at[MOST_PINS];
-        struct random_group *g = make_group(n, 2 + below(4), 1 + below(6));
+        const int pins = 1 + below(6), splines = 2 + below(4);
+        struct random_group *g = make_group(n, splines, pins);
         memset(at, 0, sizeof at);
         for (int p = 0; p < g->pins; p += 2) turn_pulls(g, p);
         if (n % 3 == 2) memset(g->pulls[0][n % 2].c, 0, sizeof g->pulls[0][0].c); // it moves one spline less
