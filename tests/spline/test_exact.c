@@ -106,7 +106,7 @@ static wiggly_param some_param(uint64_t *seed, int slot, double low, double high
     return param;
 }
 
-/// Knots on the samples of `pattern`, everything else at random.
+/// Knots on the samples of `pattern`, which repeats after 64, everything else at random.
 static void make_short(uint64_t *seed, int samples, uint64_t pattern, wiggly_mode mode, wiggly_start start)
 {
     begin(samples, mode, start);
@@ -123,7 +123,7 @@ static void make_short(uint64_t *seed, int samples, uint64_t pattern, wiggly_mod
         wiggly_from_spring(k, gamma, &desc.frequency.value, &desc.damping.value);
     }
     for (int i = 0; i < samples - (start == WIGGLY_LOOP ? 1 : 0); i++) {
-        if (!(pattern >> i & 1)) continue;
+        if (!(pattern >> i % 64 & 1)) continue;
         wiggly_knot *knot = add_knot(i, 2 * uniform(seed) - 1); // one number after the other, whatever the compiler
         knot->has_slope = pick(seed, 3) == 0;
         knot->slope = 4 * uniform(seed) - 2;
