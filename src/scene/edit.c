@@ -600,8 +600,8 @@ bool edit_knot_set(struct document *document, int spline, const struct knot *kno
 
 bool edit_spline_settles(struct document *document, int spline, bool settles, struct error *error)
 {
-    bool done = true;
-    for (int k = 0; k < document->splines[spline]->knot_count && done; k++) {
+    bool done = document_has_spline(document, spline, error);
+    for (int k = 0; done && k < document->splines[spline]->knot_count; k++) {
         struct knot knot = document->splines[spline]->knots[k];
         knot.settles = settles && !knot.still;
         done = edit_knot_set(document, spline, &knot, error);
