@@ -5,6 +5,19 @@
 #include "near.h"
 
 #include "scene/load.h"
+#include <jansson.h>
+
+/// JSON that is written with ' for ". Valid until some calls later.
+static inline const char *json(const char *text)
+{
+    static char texts[4][1 << 13];
+    static int next;
+    char *at = texts[next = (next + 1) % 4];
+    snprintf(at, sizeof texts[0], "%s", text);
+    for (char *c = at; *c; c++)
+        if (*c == '\'') *c = '"';
+    return at;
+}
 
 static inline struct document *document_of_text(const char *text)
 {
@@ -45,6 +58,53 @@ static inline void assert_loads_again(const struct document *document)
     assert_prints(again, text);
     document_destroy(again);
     free(text);
+}
+
+/// Where a path of names and indices, "splines.1.name", leads in a file; of an array "#" is how many elements it has. Compact JSON, "" where
+/// it leads nowhere; the caller frees it.
+static inline char *fact_of(const struct document *document, const char *path)
+{
+    char *text = text_of_document(document), names[128], *rest = names, *name;
+    json_t *root = json_loads(text, 0, NULL), *at = root;
+    snprintf(names, sizeof names, "%s", path);
+    json_t *count = NULL;
+    while ((name = strsep(&rest, "."))) {
+        if (*name == '#')
+            at = count = json_integer((json_int_t)json_array_size(at));
+        else
+            at = json_is_array(at) ? json_array_get(at, (size_t)atoi(name)) : json_object_get(at, name);
+    }
+    char *fact = at ? json_dumps(at, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(10)) : strdup("");
+    json_decref(count);
+    json_decref(root);
+    free(text);
+    return fact;
+}
+
+/// Fails unless a document's file says all of it: "splines.1.name='x'; rigs.#=2". `row` is who asks.
+static inline void assert_file_says(const struct document *document, const char *facts, const char *row)
+{
+    char text[1024], *rest = text, *fact;
+    snprintf(text, sizeof text, "%s", json(facts));
+    while ((fact = strsep(&rest, ";"))) {
+        char *path = fact + strspn(fact, " "), *expected = strchr(path, '=');
+        *expected++ = '\0';
+        char *found = fact_of(document, path);
+        if (strcmp(found, expected) != 0) fail_msg("%s: %s is %s, not %s", row, path, found, expected);
+        free(found);
+    }
+}
+
+/// A text with what stands where `from` does replaced by `to`; the caller frees it.
+static inline char *text_with(const char *text, const char *from, const char *to)
+{
+    const char *at = strstr(text, from);
+    if (!at) fail_msg("there is no %s in %s", from, text);
+    const size_t size = strlen(text) + strlen(to) + 1;
+    char *changed = malloc(size);
+    assert_non_null(changed);
+    snprintf(changed, size, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
+    return changed;
 }
 
 #endif

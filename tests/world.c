@@ -1,4 +1,4 @@
-/// A small document, and edits of it.
+/// A document under edit.
 #include "world.h"
 
 static const char scene_text[] =
@@ -100,39 +100,6 @@ bool edit_insert(struct world *world, int spline, double frame, double value)
     return edit_knot_insert(world_edit(world), spline, &knot, &world->error);
 }
 
-bool edit_move(struct world *world, int spline, int knot, double frame, double value)
-{
-    struct knot moved = world->document->splines[spline]->knots[knot];
-    moved.frame = frame;
-    moved.value = value;
-    return edit_knot_set(world_edit(world), spline, &moved, &world->error);
-}
-
-static bool set(struct world *world, int spline, enum parameter parameter, struct param param)
-{
-    return edit_parameter(world_edit(world), spline, parameter, &param, &world->error);
-}
-
-bool edit_number(struct world *world, int spline, enum parameter parameter, double value)
-{
-    return set(world, spline, parameter, param_number(value));
-}
-
-bool edit_track(struct world *world, int spline, enum parameter parameter, int track)
-{
-    return set(world, spline, parameter, param_track(track));
-}
-
-bool edit_mode(struct world *world, int spline, enum wiggly_mode mode)
-{
-    return edit_number(world, spline, PARAMETER_MODE, mode);
-}
-
-bool edit_start(struct world *world, int spline, enum wiggly_start start)
-{
-    return edit_number(world, spline, PARAMETER_START, start);
-}
-
 bool edit_frames(struct world *world, int first, int last)
 {
     return edit_range(world_edit(world), first, last, RANGE_REFUSE, &world->error);
@@ -149,6 +116,233 @@ bool edit_bend(struct world *world, int rig, int channel, int spline, int axis, 
     if (axis >= 0) changed.axis = (enum axis)axis;
     if (of >= 0) changed.of = (enum channel_part)of;
     return edit_channel(document, (struct channel_place){rig, channel}, &changed, &world->error);
+}
+
+// --- edits in words
+
+enum { MOST_WORDS = 12 };
+
+/// An edit's words, and what they are as numbers, as a spline and as a rig.
+struct words {
+    char text[256], *word[MOST_WORDS];
+    double number[MOST_WORDS];
+    int count, spline, rig;
+};
+
+static int spline_called(const struct document *document, const char *word)
+{
+    const int spline = document_find_spline(document, word);
+    return spline >= 0 ? spline : atoi(word);
+}
+
+static int rig_called(const struct document *document, const char *word)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const char *name = document->rigs[r]->name;
+        if (name && strcmp(name, word) == 0) return r;
+    }
+    return atoi(word);
+}
+
+static int word_among(const char *word, const char *const *words)
+{
+    for (int i = 0; words[i]; i++)
+        if (strcmp(words[i], word) == 0) return i;
+    return atoi(word);
+}
+
+static int axis_called(const char *word)
+{
+    for (int axis = 0; axis < AXES; axis++)
+        if (strcmp(axis_word((enum axis)axis), word) == 0) return axis;
+    return atoi(word);
+}
+
+static void split(struct words *words, const struct document *document, const char *edit)
+{
+    char *rest = words->text, *word;
+    snprintf(words->text, sizeof words->text, "%s", edit);
+    words->count = 0;
+    while ((word = strsep(&rest, " "))) {
+        assert_in_range(words->count, 0, MOST_WORDS - 1);
+        words->number[words->count] = strtod(word, NULL);
+        words->word[words->count++] = strcmp(word, "''") == 0 ? word + 2 : word;
+    }
+    for (int i = words->count; i < MOST_WORDS; i++) words->number[i] = 0, words->word[i] = "";
+    words->spline = spline_called(document, words->word[1]);
+    words->rig = rig_called(document, words->word[1]);
+}
+
+static enum parameter parameter_called(const char *name)
+{
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++)
+        if (strncmp(parameter_rows[p].name, name, strlen(name)) == 0) return p;
+    return *name >= '0' && *name <= '9' ? (enum parameter)atoi(name) : PARAMETER_COUNT;
+}
+
+#define VERB(name) if (strcmp(w->word[0], name) == 0)
+#define NUMBER(i) ((int)w->number[i])
+
+/// An edit of splines; −1 if it is none.
+static int do_spline(struct document *d, const struct words *w, struct error *error)
+{
+    const bool is_there = w->spline >= 0 && w->spline < d->spline_count;
+    const struct spline *spline = is_there ? d->splines[w->spline] : NULL;
+    const enum parameter parameter = parameter_called(w->word[2]);
+    struct knot knot = {.frame = w->number[2], .value = w->number[3], .stiffness = KNOT_DEFAULT_STIFFNESS};
+    VERB("insert") return edit_knot_insert(d, w->spline, &knot, error);
+    knot.id = 9999;
+    int at = NUMBER(2);
+    if (spline && w->word[2][0] == '@') at = spline_find_knot(d, spline, document_sample(d, atof(w->word[2] + 1)));
+    if (spline && at >= 0 && at < spline->knot_count) knot = spline->knots[at];
+    VERB("remove") return edit_knot_remove(d, w->spline, knot.id, error);
+    VERB("move") knot.frame = w->number[3], knot.value = w->number[4];
+    VERB("knot")
+    {
+        if (strcmp(w->word[3], "slope") == 0) knot.has_slope = true, knot.slope = w->number[4];
+        if (strcmp(w->word[3], "im") == 0) knot.has_phase = true, knot.phase = w->number[4];
+        if (strcmp(w->word[3], "stiffness") == 0) knot.stiffness = w->number[4];
+        if (strcmp(w->word[3], "still") == 0) knot.still = NUMBER(4);
+        if (strcmp(w->word[3], "settles") == 0) knot.settles = NUMBER(4);
+    }
+    if (strcmp(w->word[0], "move") == 0 || strcmp(w->word[0], "knot") == 0)
+        return edit_knot_set(d, w->spline, &knot, error);
+    VERB("set")
+    {
+        struct param param = param_number(w->number[3]);
+        if ((unsigned)parameter < PARAMETER_COUNT && parameter_rows[parameter].kind == PARAMETER_CHOICE)
+            param.value = word_among(w->word[3], parameter_rows[parameter].words);
+        return edit_parameter(d, w->spline, parameter, &param, error);
+    }
+    VERB("track")
+    {
+        const struct param param = param_track(spline_called(d, w->word[3]));
+        return edit_parameter(d, w->spline, parameter, &param, error);
+    }
+    VERB("follow")
+    {
+        struct joint_motion motion = {.model = w->word[3], .joint = w->word[4], .gain = w->number[6]};
+        motion.of = (enum motion_of)word_among(w->word[5], motion_words);
+        if (w->word[7][0]) motion.chain = w->word[7];
+        return edit_parameter(d, w->spline, parameter, &(struct param){.track = -1, .motion = &motion}, error);
+    }
+    VERB("settle") return edit_spline_settles(d, w->spline, NUMBER(2), error);
+    VERB("add")
+    {
+        const struct knot first = {.frame = w->number[3], .value = w->number[4]};
+        const char *name = strcmp(w->word[2], "-") == 0 ? NULL : w->word[2];
+        return edit_spline_add(d, NUMBER(1), name, w->count > 3 ? &first : NULL, error);
+    }
+    VERB("copy") return edit_spline_copy(d, w->spline, error);
+    VERB("drop") return edit_spline_remove(d, w->spline, error);
+    VERB("order") return edit_spline_move(d, w->spline, NUMBER(2), error);
+    VERB("name") return edit_spline_name(d, w->spline, w->word[2], error);
+    VERB("color") return edit_spline_color(d, w->spline, NUMBER(2), error);
+    return -1;
+}
+
+/// The numbers from the fourth word on.
+static struct angles angles_said(const struct words *w)
+{
+    struct angles angles = {.count = w->count - 4, .form = w->count > 5 ? ANGLES_EACH : ANGLES_ONE};
+    if (strchr(w->word[4], ':')) angles.form = ANGLES_RAMP;
+    for (int i = 0; i < angles.count; i++) {
+        const char *colon = strchr(w->word[4 + i], ':');
+        if (colon) angles.ramp[i] = (struct ramp_point){w->number[4 + i], atof(colon + 1)};
+        if (!colon) angles.value[i] = w->number[4 + i];
+    }
+    return angles;
+}
+
+/// An edit of a rig's channels, drives or pins; −1 if it is none.
+static int do_part(struct world *world, const struct words *w, struct error *error)
+{
+    static const char *const kinds[] = {"rest", "lag", "gain", NULL}, *const parts[] = {"total", "displacement",
+                                                                                        NULL};
+    struct document *d = world->document;
+    const bool is_there = w->rig >= 0 && w->rig < d->rig_count;
+    const struct channel_place at = {w->rig, NUMBER(2)};
+    VERB("angles")
+    {
+        const struct angles angles = angles_said(w);
+        return edit_angles(d, at, (enum angle_kind)word_among(w->word[3], kinds), &angles, error);
+    }
+    VERB("bend")
+    {
+        if (!is_there) return edit_channel(d, at, &(struct channel){0}, error);
+        const int spline = w->word[3][0] == '-' ? -1 : spline_called(d, w->word[3]);
+        const int axis = w->word[4][0] == '-' ? -1 : axis_called(w->word[4]);
+        const int part = w->word[5][0] == '-' ? -1 : word_among(w->word[5], parts);
+        return edit_bend(world, w->rig, at.channel, spline, axis, part);
+    }
+    VERB("channel")
+    return edit_channel_add(d, w->rig, spline_called(d, w->word[2]), (enum axis)axis_called(w->word[3]),
+                            (enum channel_part)word_among(w->word[4], parts), error);
+    VERB("unchannel") return edit_channel_remove(d, at, error);
+    VERB("drive")
+    {
+        const bool is_own = is_there && NUMBER(2) >= 0 && NUMBER(2) < d->rigs[w->rig]->character.drive_count;
+        struct drive drive = {.name = w->word[6]};
+        if (is_own && d->rigs[w->rig]->kind == RIG_CHARACTER) drive = d->rigs[w->rig]->character.drives[NUMBER(2)];
+        drive.spline = spline_called(d, w->word[3]), drive.amplitude = w->number[4], drive.lag = w->number[5];
+        return edit_drive(d, w->rig, NUMBER(2), &drive, error);
+    }
+    VERB("undrive") return edit_drive_remove(d, w->rig, NUMBER(2), error);
+    const int first = strcmp(w->word[0], "pin") == 0 ? 2 : 3;
+    struct pin pin = {.frame = w->number[first], .point = NUMBER(first + 1), .id = 9999};
+    for (int k = 0; k < 3; k++) pin.to[k] = w->number[first + 2 + k];
+    if (is_there && first == 3 && NUMBER(2) < d->rigs[w->rig]->pin_count)
+        pin.id = d->rigs[w->rig]->pins[NUMBER(2)].id;
+    VERB("pin") return edit_pin_add(d, w->rig, &pin, error);
+    VERB("repin") return edit_pin_set(d, w->rig, &pin, error);
+    VERB("unpin") return edit_pin_remove(d, w->rig, pin.id, error);
+    return -1;
+}
+
+/// An edit of the scene's frames or of rigs; −1 if it is none.
+static int do_rig(struct document *d, const struct words *w, struct error *error)
+{
+    static const char *const fits[] = {"refuse", "move", "trim", NULL};
+    VERB("fps") return edit_fps(d, w->number[1], w->count > 2, error);
+    VERB("substeps") return edit_substeps(d, NUMBER(1), error);
+    VERB("range")
+    return edit_range(d, NUMBER(1), NUMBER(2), (enum range_fit)word_among(w->word[3], fits), error);
+    VERB("tail") return edit_tail_add(d, w->rig, spline_called(d, w->word[2]), error);
+    VERB("unrig") return edit_rig_remove(d, w->rig, error);
+    VERB("rename") return edit_rig_name(d, w->rig, w->word[2], error);
+    VERB("joints") return edit_joints(d, w->rig, NUMBER(2), error);
+    struct rig changed = {.kind = RIG_TAIL};
+    int wanted = 0;
+    if (w->rig >= 0 && w->rig < d->rig_count) changed = *d->rigs[w->rig];
+    VERB("length") wanted = 1, changed.tail.length = w->number[2];
+    VERB("place") wanted = 1, changed.tail.position[NUMBER(2)] = param_number(w->number[3]);
+    VERB("ride") wanted = 1, changed.tail.position[NUMBER(2)] = param_track(spline_called(d, w->word[3]));
+    VERB("clip") wanted = 1, changed.model.clip = w->word[2];
+    VERB("turn") wanted = 1, changed.chain.turn = w->number[2];
+    VERB("floor") wanted = 1, changed.character.has_floor = true, changed.character.floor = w->number[2];
+    return wanted ? edit_rig_set(d, w->rig, &changed, error) : -1;
+}
+
+bool world_do(struct world *world, const char *edit)
+{
+    struct words words;
+    struct document *document = world_edit(world);
+    split(&words, document, edit);
+    int done = do_spline(document, &words, &world->error);
+    if (done < 0) done = do_rig(document, &words, &world->error);
+    if (done < 0) done = do_part(world, &words, &world->error);
+    if (done < 0) fail_msg("there is no edit \"%s\"", edit);
+    return done;
+}
+
+bool world_do_all(struct world *world, const char *edits)
+{
+    for (const char *end; (end = strchr(edits, ';')); edits = end + 2) {
+        char edit[256];
+        snprintf(edit, sizeof edit, "%.*s", (int)(end - edits), edits);
+        if (!world_step(world, world_do(world, edit))) fail_msg("%s: %s", edit, world->error.text);
+    }
+    return world_do(world, edits);
 }
 
 int world_undo_all(struct world *world)

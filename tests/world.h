@@ -1,4 +1,4 @@
-/// A small document, and edits of it, for tests of edits and history.
+/// A document under edit, for tests of edits and history. Edits are said in words: world_do(world, "move sway 0 20.5 7").
 #ifndef TESTS_WORLD_H
 #define TESTS_WORLD_H
 
@@ -7,7 +7,7 @@
 #include "scene/edit.h"
 #include "scene/history.h"
 
-/// The splines of the document: three knots; spring and friction from rest; a loop that follows the first.
+/// The splines of the small document: three knots; spring and friction from rest; a loop that follows the first.
 enum { SWAY, PLUCK, LOOP };
 
 struct world {
@@ -34,6 +34,26 @@ struct document *world_edit(struct world *world);
 /// An edit of scene/edit.h in such a step: assert_reversible(world, EDIT(edit_joints, 0, 12)).
 #define EDIT(edit, ...) edit(world_edit(world), __VA_ARGS__, &world->error)
 
+/// An edit in words, in such a step. Splines and rigs go by name or index; a knot, channel, drive or pin by its index,
+/// a knot also by its frame: @85.
+///
+///     insert SPLINE FRAME VALUE           move SPLINE KNOT FRAME VALUE      knot SPLINE KNOT MEMBER VALUE     remove SPLINE KNOT
+///     set SPLINE PARAMETER VALUE          track SPLINE PARAMETER SPLINE     settle SPLINE 0|1
+///     follow SPLINE PARAMETER MODEL JOINT OF GAIN CHAIN                     names, or '' and - for an empty one and none
+///     add PLACE NAME FRAME VALUE          copy SPLINE    drop SPLINE        order SPLINE PLACE
+///     name SPLINE NAME                    color SPLINE NUMBER
+///     fps RATE [keep]                     substeps N                        range FIRST LAST refuse|move|trim
+///     angles RIG CHANNEL KIND NUMBER …    numbers, or of a ramp PLACE:DEGREES
+///     bend RIG CHANNEL SPLINE AXIS OF     channel RIG SPLINE AXIS OF        unchannel RIG CHANNEL
+///     tail RIG SPLINE                     unrig RIG      rename RIG NAME    joints RIG COUNT
+///     length RIG VALUE                    place RIG AXIS VALUE              ride RIG AXIS SPLINE
+///     clip RIG NAME                       turn RIG DEGREES                  floor RIG HEIGHT
+///     drive RIG DRIVE SPLINE AMPLITUDE LAG NAME                             undrive RIG DRIVE
+///     pin RIG FRAME POINT X Y Z           repin RIG PIN FRAME POINT X Y Z   unpin RIG PIN
+bool world_do(struct world *world, const char *edit);
+/// Edits with ';' between them, each in a step of its own. The last step stays open.
+bool world_do_all(struct world *world, const char *edits);
+
 /// Closes the step of an edit that succeeded or failed; the second requires success.
 bool world_step(struct world *world, bool done);
 void world_must(struct world *world, bool done);
@@ -50,11 +70,6 @@ int world_undo_all(struct world *world);
 // Edits of the world's document, as by world_edit().
 
 bool edit_insert(struct world *world, int spline, double frame, double value);
-bool edit_move(struct world *world, int spline, int knot, double frame, double value);
-bool edit_number(struct world *world, int spline, enum parameter parameter, double value);
-bool edit_track(struct world *world, int spline, enum parameter parameter, int track);
-bool edit_mode(struct world *world, int spline, enum wiggly_mode mode);
-bool edit_start(struct world *world, int spline, enum wiggly_start start);
 bool edit_frames(struct world *world, int first, int last);
 /// Sets a channel's spline, axis or part; −1 keeps it.
 bool edit_bend(struct world *world, int rig, int channel, int spline, int axis, int of);
