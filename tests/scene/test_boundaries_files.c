@@ -1,5 +1,5 @@
 /// The limits of files, pictures, the clipboard and of names that are taken: what lies at each is taken, what lies one above it is refused with
-/// a sentence. Large files are holes, which take no disk.
+/// a sentence. Large files are holes, which take no disk. And file systems that refuse rights, syncing, renaming or a name.
 
 #include "app/recovery.h"
 #include "app/replay.h"
@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/png.h"
 #include "blind.h"
+#include "documents.h"
 #include "folder.h"
 #include "model/character.h"
 #include "model/gltf.h"
@@ -16,9 +17,14 @@
 #include "scene/load.h"
 #include "scene/paint.h"
 #include "scene/text.h"
+#include <errno.h>
+#include <fcntl.h>
 #include <jansson.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
+
+#define FOLDER_TEST(name) TEST_WITH(folder_make, folder_remove, name)
 
 static void says(const struct error *error, const char *fragment)
 {
@@ -37,25 +43,33 @@ static const char *hole(const char *name, const void *start, size_t length, size
     return path;
 }
 
-static char *filled(size_t size, char with)
+static void assert_holds(const char *path, const char *text)
+{
+    size_t size;
+    char *data;
+    assert_done(file_read(path, 100, &data, &size, &error));
+    assert_string_equal(data, text);
+    free(data);
+}
+
+static char *filled(size_t size, char with, const char *start)
 {
     char *text = malloc(size + 1);
     assert_non_null(text);
     memset(text, with, size);
+    memcpy(text, start, strlen(start));
     text[size] = '\0';
     return text;
 }
 
 /// A file of 1 MiB.
-TEST_WITH(folder_make, folder_remove, settings_of_a_size)
+FOLDER_TEST(settings_of_a_size)
 {
     enum { MOST = 1 << 20 };
     for (size_t size = MOST - 1; size <= MOST + 1; size++) {
         struct error error;
-        char *text = filled(size, ' ');
-        memcpy(text, "{\"theme\": \"dark\"}", 17);
-        assert_true(file_write_atomic(folder_path("settings"), text, size, &error));
-        struct settings *settings = settings_load(folder_path("settings"), &error);
+        char *text = filled(size, ' ', "{\"theme\": \"dark\"}");
+        struct settings *settings = settings_load(folder_file("settings", text), &error);
         const bool taken = size <= MOST;
         assert_int_equal(error.kind != ERROR_NONE, !taken);
         assert_int_equal(settings_get(settings, "theme") != NULL, taken);
@@ -66,7 +80,7 @@ TEST_WITH(folder_make, folder_remove, settings_of_a_size)
 }
 
 /// At 1 GiB they are read and refused for what they hold; that is not done here.
-TEST_WITH(folder_make, folder_remove, work_of_a_size)
+FOLDER_TEST(work_of_a_size)
 {
     const size_t above = ((size_t)1 << 30) + 1;
     struct error error = {0};
@@ -75,7 +89,7 @@ TEST_WITH(folder_make, folder_remove, work_of_a_size)
 }
 
 /// The pictures of an OBJ's materials: one of 256 MiB, and one of a byte more.
-TEST_WITH(folder_make, folder_remove, pictures_of_a_size)
+FOLDER_TEST(pictures_of_a_size)
 {
     enum { MOST = 256 << 20 };
     static const char obj[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
@@ -100,7 +114,7 @@ static void store(void *user, const void *bytes, size_t size)
 }
 
 /// 16,384 pixels a side, read and written.
-TEST_WITH(folder_make, folder_remove, pictures_of_a_width)
+FOLDER_TEST(pictures_of_a_width)
 {
     enum { MOST = 16384 };
     static const char gltf[] = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}],\"images\":[{\"uri\":\"a.png\"}],"
@@ -154,7 +168,7 @@ static bool read_nodes(size_t bytes, int nodes, bool more, struct error *error)
 }
 
 /// 2^24 − 1 vertices together, and with another triangle 2^24 + 2; triangles have three. In a small file 2^23 and 32 for each of its bytes.
-TEST_WITH(folder_make, folder_remove, vertices_of_a_model)
+FOLDER_TEST(vertices_of_a_model)
 {
     struct error error = {0};
     if (!is_thorough()) skip();
@@ -168,7 +182,7 @@ TEST_WITH(folder_make, folder_remove, vertices_of_a_model)
 }
 
 /// Coordinates that move no vertex take no byte of the file: a small one has few.
-TEST_WITH(folder_make, folder_remove, vertices_of_a_character)
+FOLDER_TEST(vertices_of_a_character)
 {
     enum { VERTICES = 1 << 18, BYTES = 12 * VERTICES, FEW = 8 };
     for (int coordinates = FEW; coordinates <= 8 * FEW; coordinates *= 8) {
@@ -200,14 +214,13 @@ TEST_WITH(folder_make, folder_remove, vertices_of_a_character)
 }
 
 /// 16 MiB of text on the clipboard.
-TEST_WITH(folder_make, folder_remove, text_on_the_clipboard)
+FOLDER_TEST(text_on_the_clipboard)
 {
     enum { MOST = 16 << 20 };
     struct blind blind;
     blind_open(&blind, NULL);
     for (size_t size = MOST - 1; size <= MOST + 1; size++) {
-        char *text = filled(size, '#');
-        memcpy(text, "0,1\n", 4);
+        char *text = filled(size, '#', "0,1\n");
         platform_set_clipboard(blind.app.platform, text);
         const char *taken = app_clipboard_text(&blind.app);
         assert_int_equal(taken != NULL, size <= MOST);
@@ -227,7 +240,7 @@ static bool place(void *user, const char *target, float *x, float *y, struct err
 #define REPLAY(size, rest) "wiggly-replay 1\nsize " size "\nscale 1\n" rest
 
 /// What is refused is refused with its line.
-TEST_WITH(folder_make, folder_remove, lines_of_a_replay)
+FOLDER_TEST(lines_of_a_replay)
 {
     static const struct {
         const char *text, *says; ///< NULL: taken
@@ -272,7 +285,7 @@ TEST_WITH(folder_make, folder_remove, lines_of_a_replay)
 }
 
 /// A letter beyond what is kept of a field of CSV would change its number without a word.
-TEST_WITH(folder_make, folder_remove, letters_of_a_number)
+FOLDER_TEST(letters_of_a_number)
 {
     for (int zeros = 58; zeros <= 60; zeros++) {
         char text[128];
@@ -298,7 +311,7 @@ static void count_warning(void *user, bool is_error, const char *sentence)
     last_warning += strstr(sentence, "further unknown keys are kept silently") != NULL;
 }
 
-TEST_WITH(folder_make, folder_remove, unknown_keys)
+FOLDER_TEST(unknown_keys)
 {
     for (int keys = 63; keys <= 65; keys++) {
         struct text text = {0};
@@ -321,57 +334,151 @@ TEST_WITH(folder_make, folder_remove, unknown_keys)
     }
 }
 
-static void take_name(const char *format, int number)
+static void take_names(const char *format, int from, int to)
 {
-    char name[64];
-    snprintf(name, sizeof name, format, number);
-    hole(name, "", 0, 0);
+    for (int i = from; i <= to; i++) {
+        char name[64];
+        snprintf(name, sizeof name, format, i); // NOLINT: formats of this file
+        hole(name, "", 0, 0);
+    }
 }
 
 /// The temporary files of a save: this process has written a hundred there already.
-TEST_WITH(folder_make, folder_remove, names_of_temporary_files)
+FOLDER_TEST(names_of_temporary_files)
 {
     struct error error = {0};
     char format[64];
     snprintf(format, sizeof format, ".wiggly-%ld-%%d.tmp", (long)getpid());
-    for (int i = 0; i < 99; i++) take_name(format, i);
+    take_names(format, 0, 98);
     assert_true(file_write_atomic(folder_path("a"), "1", 1, &error));
-    take_name(format, 99);
+    take_names(format, 99, 99);
     assert_false(file_write_atomic(folder_path("a"), "2", 1, &error));
     says(&error, "/a: cannot be written: File exists");
-    size_t size;
-    char *data;
-    assert_true(file_read(folder_path("a"), 10, &data, &size, &error));
-    assert_string_equal(data, "1");
-    free(data);
+    assert_holds(folder_path("a"), "1");
 }
 
-/// Rescued scenes beside the scene's own file; with a thousand there, the next goes to the home folder.
-TEST_WITH(folder_make, folder_remove, names_of_rescued_scenes)
+// --- file systems that refuse
+
+enum call { NONE, FSYNC, FCHMOD, RENAME };
+
+static struct {
+    enum call call;
+    int error;
+} refused;
+
+static int answer(enum call call, long done)
 {
-    static const char scene[] =
-        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}]}";
-    char *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL, own[80];
+    if (refused.call != call) return (int)done;
+    errno = refused.error;
+    return -1;
+}
+
+// In place of libc's.
+int fsync(int file) { return answer(FSYNC, syscall(SYS_fsync, file)); }
+int fchmod(int file, mode_t mode)
+{
+    return answer(FCHMOD, refused.call == FCHMOD ? 0 : syscall(SYS_fchmod, file, mode));
+}
+int rename(const char *from, const char *to)
+{
+    return answer(RENAME, refused.call == RENAME ? 0 : syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
+
+/// Writes where a call fails; the file holds the new text or the old one, and nothing is left beside it.
+static bool write_refused(const char *name, enum call call, int number, const char *old, struct error *error)
+{
+    refused.call = call, refused.error = number;
+    const bool is_saved = file_write_atomic(folder_path(name), "new", 3, error);
+    refused.call = NONE;
+    if (is_saved || old) assert_holds(folder_path(name), is_saved ? "new" : old);
+    char command[128];
+    snprintf(command, sizeof command, "ls -A %s | grep -v '^%s$'", folder, name);
+    assert_int_not_equal(system(command), 0);
+    return is_saved;
+}
+
+FOLDER_TEST(rights_and_syncing)
+{
+    static const struct {
+        enum call call;
+        int error;
+        bool is_saved;
+    } rows[] = {
+        {FSYNC, EINVAL, true},  {FSYNC, ENOSYS, true},      {FSYNC, ENOTSUP, true}, {FSYNC, EPERM, true},
+        {FSYNC, EIO, false},    {FSYNC, ENOSPC, false},     {FCHMOD, EPERM, true},  {FCHMOD, ENOSYS, true},
+        {FCHMOD, EINVAL, true}, {FCHMOD, EOPNOTSUPP, true}, {FCHMOD, EIO, false},   {RENAME, EPERM, false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct error error = {0};
+        struct stat about;
+        const char *path = folder_file("scene", "old");
+        assert_int_equal(chmod(path, 0666), 0);
+        const bool is_saved = write_refused("scene", rows[i].call, rows[i].error, "old", &error);
+        if (is_saved != rows[i].is_saved) fail_msg("row %zu: %s", i, error.text);
+        assert_int_equal(stat(path, &about), 0);
+        assert_int_equal(about.st_mode & 0777, rows[i].call == FCHMOD && is_saved ? 0600 : 0666);
+    }
     struct error error = {0};
+    assert_int_equal(unlink(folder_path("scene")), 0);
+    assert_true(write_refused("scene", RENAME, EPERM, NULL, &error)); // a new file needs no renaming
+}
+
+// --- scenes that are rescued
+
+/// Opens a scene of this name and edits it.
+static void open_and_edit(struct blind *blind, const char *name)
+{
+    char path[400];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    const char *scene = json("{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 's', 'knots': []}]}");
+    assert_done(file_write_atomic(path, scene, strlen(scene), &error));
+    blind_open(blind, path);
+    blind_frame(blind);
+    blind_key(blind, 'I', 0);
+    assert_false(history_is_saved(blind->app.work.history));
+}
+
+/// Lets the program end, and finds the work in a file whose path ends so.
+static void assert_rescued(struct blind *blind, const char *name, enum call call)
+{
+    struct error error = {0};
+    refused.call = call, refused.error = EPERM;
+    fail(&error, ERROR_ENVIRONMENT, "the end");
+    app_rescue(&blind->app, &error);
+    refused.call = NONE;
+    char words[128];
+    snprintf(words, sizeof words, "%s: open it to continue", name);
+    says(&error, words);
+    struct document *document = document_of_file(folder_path(name + 1));
+    assert_int_equal(document->splines[0]->knot_count, 1);
+    document_destroy(document);
+}
+
+/// Beside the scene's own file, also where no file can be renamed; with a thousand there, in the home folder.
+FOLDER_TEST(names_of_rescued_scenes)
+{
+    char *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
     struct blind blind;
-    snprintf(own, sizeof own, "%s/home", folder);
-    assert_int_equal(mkdir(own, 0700), 0);
-    assert_int_equal(setenv("HOME", own, 1), 0);
-    folder_file("walk.json", scene);
-    blind_open(&blind, folder_path("walk.json"));
-    blind_frame(&blind);
-    blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'I', .action = ACTION_PRESS});
-    blind_frame(&blind);
-    assert_false(history_is_saved(blind.app.work.history));
-    hole("walk.recovered.json", "", 0, 0);
-    for (int i = 2; i <= 999; i++) take_name("walk.recovered-%d.json", i);
-    fail(&error, ERROR_ENVIRONMENT, "the end");
-    app_rescue(&blind.app, &error);
-    says(&error, "/walk.recovered-1000.json: open it to continue");
-    fail(&error, ERROR_ENVIRONMENT, "the end");
-    app_rescue(&blind.app, &error);
-    says(&error, "/home/walk.recovered.json: open it to continue");
+    assert_int_equal(mkdir(folder_path("home"), 0700), 0);
+    assert_int_equal(setenv("HOME", folder_path("home"), 1), 0);
+    open_and_edit(&blind, "walk.json");
+    assert_rescued(&blind, "/walk.recovered.json", RENAME);
+    take_names("walk.recovered-%d.json", 2, 999);
+    assert_rescued(&blind, "/walk.recovered-1000.json", NONE);
+    assert_rescued(&blind, "/home/walk.recovered.json", NONE);
     blind_close(&blind);
     if (home) setenv("HOME", home, 1);
     free(home);
+}
+
+/// The scene's name is as long as a name can be.
+FOLDER_TEST(a_rescue_of_a_long_name)
+{
+    struct blind blind;
+    char name[256];
+    memset(name, 'w', 255);
+    memcpy(name + 250, ".json", 6);
+    open_and_edit(&blind, name);
+    assert_rescued(&blind, "/untitled.recovered.json", NONE);
+    blind_close(&blind);
 }
