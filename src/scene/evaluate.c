@@ -373,7 +373,7 @@ static wiggly_status solve_round(struct pinned *pinned, bool with_pins)
 }
 
 static const double PIN_STEP = 0.5;     ///< largest step, as a share of the reach
-static const double PIN_DAMPING = 4;    ///< less lets drags far out of reach jump (tests/scene/test_pins_drag.c)
+static const double PIN_DAMPING = 4;    ///< less lets drags far out of reach jump (tests/scene/test_pins_scene.c)
 static const double PIN_FIRMNESS = 0.3; ///< with less, they curl tails up; with more, less of what can be reached is
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
