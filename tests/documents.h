@@ -60,19 +60,21 @@ static inline void assert_loads_again(const struct document *document)
     free(text);
 }
 
-/// Where a path of names and indices, "splines.1.name", leads in a file; of an array "#" is how many elements it has. Compact JSON, "" where
-/// it leads nowhere; the caller frees it.
+/// Where a path leads in a file: names, and elements of lists by their letter: "s1.k0.value" is splines[1].knots[0].value. "s#" is how many
+/// splines there are. Compact JSON, "" where it leads nowhere; the caller frees it.
 static inline char *fact_of(const struct document *document, const char *path)
 {
+    static const char *const lists[] = {"splines", "knots", "rigs", "channels", "pins", "drives"};
     char *text = text_of_document(document), names[128], *rest = names, *name;
-    json_t *root = json_loads(text, 0, NULL), *at = root;
+    json_t *root = json_loads(text, 0, NULL), *at = root, *count = NULL;
     snprintf(names, sizeof names, "%s", path);
-    json_t *count = NULL;
     while ((name = strsep(&rest, "."))) {
-        if (*name == '#')
+        for (int i = 0; i < 6 && (name[1] == '#' || (name[1] >= '0' && name[1] <= '9')); i++)
+            if (lists[i][0] == *name) at = json_object_get(at, *name == 'd' ? "coordinates" : lists[i]);
+        if (name[1] == '#')
             at = count = json_integer((json_int_t)json_array_size(at));
         else
-            at = json_is_array(at) ? json_array_get(at, (size_t)atoi(name)) : json_object_get(at, name);
+            at = json_is_array(at) ? json_array_get(at, (size_t)atoi(name + 1)) : json_object_get(at, name);
     }
     char *fact = at ? json_dumps(at, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(10)) : strdup("");
     json_decref(count);
@@ -81,7 +83,7 @@ static inline char *fact_of(const struct document *document, const char *path)
     return fact;
 }
 
-/// Fails unless a document's file says all of it: "splines.1.name='x'; rigs.#=2". `row` is who asks.
+/// Fails unless a document's file says all of it: "s1.name='x'; r#=2". `row` is who asks.
 static inline void assert_file_says(const struct document *document, const char *facts, const char *row)
 {
     char text[1024], *rest = text, *fact;

@@ -342,7 +342,7 @@ TEST(pins_of_an_edit)
     for (int i = 0; i < 2; i++) {
         assert_false(world_step(&world, world_do(&world, edits[i])));
         assert_non_null(strstr(world.error.text, "t: pins: expected at most 1048576 samples over all pins"));
-        assert_file_says(world.document, "rigs.0.pins.#=11; frames=[0,95324]", edits[i]);
+        assert_file_says(world.document, "r0.p#=11; frames=[0,95324]", edits[i]);
     }
     world_must(&world, world_do(&world, "range 0 200 refuse"));
     for (int n = 11; n < 1024; n++)

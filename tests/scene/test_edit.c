@@ -49,164 +49,148 @@ static const struct change {
     const char *scene, *edits, *facts;
 } changes[] = {
     // a knot may pass others, and stays by sample; what is not known of it goes with it; a file has no −0
-    {small, "move sway 0 20.5 7", "splines.0.knots.0.frame=12; splines.0.knots.1={'frame':20.5,'value':7,'tag':1}"},
-    {small, "move sway 2 5 3", "splines.0.knots.0.frame=0; splines.0.knots.1.value=3; splines.0.knots.2.frame=12"},
-    {small, "move sway 1 13 1", "splines.0.knots.1={'frame':13,'value':1,'slope':0}"},
-    {small, "insert sway 4 0", "splines.0.knots.#=4; splines.0.knots.1={'frame':4,'value':0}"},
-    {small, "insert sway 48 0", "splines.0.knots.3.frame=48"},
-    {small, "remove sway 0; insert sway -0.4 0", "splines.0.knots.0.frame=-0.4"},
-    {small, "remove sway 0", "splines.0.knots.#=2; splines.0.knots.0.frame=12"},
-    {small, "remove sway 2", "splines.0.knots.#=2; splines.0.knots.1.frame=12"},
-    {small, "knot sway 1 slope 2", "splines.0.knots.1.slope=2"},
-    {small, "knot sway 1 im -3", "splines.0.knots.1.im=-3"},
-    {small, "knot sway 1 stiffness 7", "splines.0.knots.1.stiffness=7"},
-    {small, "knot sway 1 still 1", "splines.0.knots.1={'frame':12,'still':true}"},
-    {small, "knot sway 0 settles 1", "splines.0.knots.0.settles=true; splines.0.knots.1.settles="},
-    {small, "knot sway 1 still 1; settle sway 1",
-     "splines.0.knots.0.settles=true; splines.0.knots.1.settles=; splines.0.knots.2.settles=true"},
-    {small, "settle sway 1; settle sway 0", "splines.0.knots.0.settles="},
-    {small, "knot sway 0 slope 1; knot sway 0 slope -0", "splines.0.knots.0.slope=0"},
+    {small, "move sway 0 20.5 7", "s0.k0.frame=12; s0.k1={'frame':20.5,'value':7,'tag':1}"},
+    {small, "move sway 2 5 3", "s0.k0.frame=0; s0.k1.value=3; s0.k2.frame=12"},
+    {small, "move sway 1 13 1", "s0.k1={'frame':13,'value':1,'slope':0}"},
+    {small, "insert sway 4 0", "s0.k#=4; s0.k1={'frame':4,'value':0}"},
+    {small, "insert sway 48 0", "s0.k3.frame=48"},
+    {small, "remove sway 0; insert sway -0.4 0", "s0.k0.frame=-0.4"},
+    {small, "remove sway 0", "s0.k#=2; s0.k0.frame=12"},
+    {small, "remove sway 2", "s0.k#=2; s0.k1.frame=12"},
+    {small, "knot sway 1 slope 2", "s0.k1.slope=2"},
+    {small, "knot sway 1 im -3", "s0.k1.im=-3"},
+    {small, "knot sway 1 stiffness 7", "s0.k1.stiffness=7"},
+    {small, "knot sway 1 still 1", "s0.k1={'frame':12,'still':true}"},
+    {small, "knot sway 0 settles 1", "s0.k0.settles=true; s0.k1.settles="},
+    {small, "knot sway 1 still 1; settle sway 1", "s0.k0.settles=true; s0.k1.settles=; s0.k2.settles=true"},
+    {small, "settle sway 1; settle sway 0", "s0.k0.settles="},
+    {small, "knot sway 0 slope 1; knot sway 0 slope -0", "s0.k0.slope=0"},
 
     // parameters; the paper's pair (eq. 12) is read as what it is; a new mode clamps, so that what is saved loads
-    {small, "set sway calm 0.25",
-     "splines.0.calm=0.25; splines.1.frequency=1.006584242; splines.1.damping=0.0790569415"},
-    {small, "set sway equilibrium 1; set sway equilibrium -0",
-     "splines.0.equilibrium=0; splines.1.spring=; splines.1.friction="},
-    {small, "set pluck damping 2.4; set pluck mode complex", "splines.1.damping=1; splines.1.mode='complex'"},
-    {small, "set pluck damping 2.4; set pluck mode cubic", "splines.1.damping=2.4"},
-    {small, "set loop start free; set sway start loop", "splines.0.start='loop'; splines.2.start='free'"},
-    {small, "track pluck frequency loop", "splines.1.frequency={'spline':'loop'}"},
-    {small, "track loop equilibrium pluck; set loop equilibrium 2", "splines.2.equilibrium=2"},
-    {small, "set sway low -1", "splines.0.limits=[-1,null]"},
-    {small, "set sway high 1; set sway high inf", "splines.0.limits="},
-    {small, "set sway low -2; set sway high 1.5", "splines.0.limits=[-2,1.5]"},
-    {small, "set sway seed 7; set sway variation 0.5", "splines.0.variation={'seed':7,'amount':0.5}"},
+    {small, "set sway calm 0.25", "s0.calm=0.25; s1.frequency=1.006584242; s1.damping=0.0790569415"},
+    {small, "set sway equilibrium 1; set sway equilibrium -0", "s0.equilibrium=0; s1.spring=; s1.friction="},
+    {small, "set pluck damping 2.4; set pluck mode complex", "s1.damping=1; s1.mode='complex'"},
+    {small, "set pluck damping 2.4; set pluck mode cubic", "s1.damping=2.4"},
+    {small, "set loop start free; set sway start loop", "s0.start='loop'; s2.start='free'"},
+    {small, "track pluck frequency loop", "s1.frequency={'spline':'loop'}"},
+    {small, "track loop equilibrium pluck; set loop equilibrium 2", "s2.equilibrium=2"},
+    {small, "set sway low -1", "s0.limits=[-1,null]"},
+    {small, "set sway high 1; set sway high inf", "s0.limits="},
+    {small, "set sway low -2; set sway high 1.5", "s0.limits=[-2,1.5]"},
+    {small, "set sway seed 7; set sway variation 0.5", "s0.variation={'seed':7,'amount':0.5}"},
 
     // splines: what refers to one goes with it; a new one loops as others do, and has a free name
     {small, "add 1 - 7 0.5",
-     "splines.#=4; "
-     "splines.1={'name':'spline','mode':'complex','frequency':1,'damping':0.1,'bandwidth':0.1,'calm':1,'wind_up':0.5,"
-     "'equilibrium':0,'start':'loop','knots':[{'frame':7,'value':0.5}]}; splines.3.equilibrium.spline='sway'; "
-     "rigs.0.channels.1.spline='loop'"},
-    {small, "add -1 -; add 9 -", "splines.3.knots=[]; splines.4.name='spline 2'"},
-    {small, "add -1 - 48 0.5", "splines.3.knots.0.frame=0"}, // of a loop, whose first frame it repeats
-    {small, "set loop start free; add -1 - 48 0.5", "splines.3.knots.0.frame=48; splines.3.start='free'"},
-    {small, "add 0 sweep 0 0; add 0 sweep-7", "splines.0.name='sweep-7'; splines.1.name='sweep'"},
+     "s#=4; "
+     "s1={'name':'spline','mode':'complex','frequency':1,'damping':0.1,'bandwidth':0.1,'calm':1,'wind_up':0.5,'"
+     "equilibrium':0,'start':'loop','knots':[{'frame':7,'value':0.5}]}; s3.equilibrium.spline='sway'; "
+     "r0.c1.spline='loop'"},
+    {small, "add -1 -; add 9 -", "s3.knots=[]; s4.name='spline 2'"},
+    {small, "add -1 - 48 0.5", "s3.k0.frame=0"}, // of a loop, whose first frame it repeats
+    {small, "set loop start free; add -1 - 48 0.5", "s3.k0.frame=48; s3.start='free'"},
+    {small, "add 0 sweep 0 0; add 0 sweep-7", "s0.name='sweep-7'; s1.name='sweep'"},
     {small, "copy loop; copy 3; insert 3 9 9",
-     "splines.3.name='loop 2'; splines.4.name='loop 3'; splines.2.knots.#=1; splines.3.knots.#=2; "
-     "splines.3.equilibrium.spline='sway'; splines.3.start='loop'"},
-    {small, "copy loop; copy loop", "splines.3.name='loop 3'; splines.4.name='loop 2'"},
-    {small, "drop pluck", "splines.#=2; splines.1.equilibrium.spline='sway'; rigs.0.channels.1.spline='loop'"},
+     "s3.name='loop 2'; s4.name='loop 3'; s2.k#=1; s3.k#=2; s3.equilibrium.spline='sway'; s3.start='loop'"},
+    {small, "copy loop; copy loop", "s3.name='loop 3'; s4.name='loop 2'"},
+    {small, "drop pluck", "s#=2; s1.equilibrium.spline='sway'; r0.c1.spline='loop'"},
     {small, "order sway 2",
-     "splines.0.name='pluck'; splines.1.name='loop'; splines.2.name='sway'; splines.1.equilibrium.spline='sway'; "
-     "rigs.0.channels.0.spline='sway'; rigs.0.channels.1.spline='loop'"},
-    {small, "order loop 0", "splines.0.name='loop'; splines.1.name='sway'; rigs.0.channels.1.spline='loop'"},
-    {small, "name loop loop; name sway Schwung·1",
-     "splines.0.name='Schwung·1'; splines.2.equilibrium.spline='Schwung·1'"},
-    {small, "color pluck 0x4FA3E3", "splines.1.color='#4FA3E3'; splines.0.color="},
-    {small, "color pluck 0; color sway 0xFFFFFF", "splines.1.color='#000000'; splines.0.color='#FFFFFF'"},
-    {small, "color pluck 1; color pluck -1", "splines.1.color="},
+     "s0.name='pluck'; s1.name='loop'; s2.name='sway'; s1.equilibrium.spline='sway'; r0.c0.spline='sway'; "
+     "r0.c1.spline='loop'"},
+    {small, "order loop 0", "s0.name='loop'; s1.name='sway'; r0.c1.spline='loop'"},
+    {small, "name loop loop; name sway Schwung·1", "s0.name='Schwung·1'; s2.equilibrium.spline='Schwung·1'"},
+    {small, "color pluck 0x4FA3E3", "s1.color='#4FA3E3'; s0.color="},
+    {small, "color pluck 0; color sway 0xFFFFFF", "s1.color='#000000'; s0.color='#FFFFFF'"},
+    {small, "color pluck 1; color pluck -1", "s1.color="},
 
     // 24 to 30 frames a second: kept seconds put the knot of frame 12 on 15, and a slope per second stays what it is
-    {small, "fps 30", "fps=30; frames=[0,48]; splines.0.knots.1.frame=12"},
-    {small, "fps 30 keep",
-     "frames=[0,60]; splines.0.knots.1={'frame':15,'value':1,'slope':0}; splines.0.knots.2.frame=37.5"},
-    {small, "range -3 50 refuse; fps 25 keep", "frames=[-4,53]; splines.0.knots.1.frame=12.5"}, // outwards
-    {small, "fps 25 keep; fps 24 keep", "splines.0.knots.1.frame=12"},
-    {pinned, "fps 48 keep", "frames=[0,96]; rigs.0.pins.0.frame=24.5; rigs.0.pins.1.frame=60"},
-    {small, "substeps 4; insert sway 12.25 0", "substeps=4; splines.0.knots.2.frame=12.25"},
+    {small, "fps 30", "fps=30; frames=[0,48]; s0.k1.frame=12"},
+    {small, "fps 30 keep", "frames=[0,60]; s0.k1={'frame':15,'value':1,'slope':0}; s0.k2.frame=37.5"},
+    {small, "range -3 50 refuse; fps 25 keep", "frames=[-4,53]; s0.k1.frame=12.5"}, // outwards
+    {small, "fps 25 keep; fps 24 keep", "s0.k1.frame=12"},
+    {pinned, "fps 48 keep", "frames=[0,96]; r0.p0.frame=24.5; r0.p1.frame=60"},
+    {small, "substeps 4; insert sway 12.25 0", "substeps=4; s0.k2.frame=12.25"},
     {small, "range -10 30 refuse", "frames=[-10,30]"},
-    {small, "set loop start free; range -10 30 refuse; range -10 31 refuse; set sway start loop",
-     "splines.0.start='loop'"},
-    {small, "insert sway 28 4; range 2 28 trim",
-     "splines.0.knots.#=2; splines.0.knots.0.frame=12; splines.0.knots.1.frame=28"},
+    {small, "set loop start free; range -10 30 refuse; range -10 31 refuse; set sway start loop", "s0.start='loop'"},
+    {small, "insert sway 28 4; range 2 28 trim", "s0.k#=2; s0.k0.frame=12; s0.k1.frame=28"},
     {small, "insert sway 28 4; range 2 28 move", // the knot at 28 makes room for the one from 30
-     "splines.0.knots.0.frame=2; splines.0.knots.1.frame=12; splines.0.knots.2.frame=27; splines.0.knots.3.frame=28"},
-    {small, "range 13 40 move",
-     "splines.0.knots.0={'frame':13,'value':0,'tag':1}; splines.0.knots.1.frame=14; splines.2.knots.0.frame=13"},
-    {small, "range 0 2 move", "splines.0.knots.2.frame=2; splines.0.knots.1.frame=1; splines.2.knots.0.frame=1"},
-    {pinned, "range 0 29 move", "rigs.0.pins.1.frame=29; rigs.0.pins.1.why='grip'"},
-    {pinned, "range 13 40 move", "rigs.0.pins.0.frame=13; rigs.0.pins.1.frame=30; splines.0.knots.0.frame=13"},
-    {pinned, "range 0 29 trim", "rigs.0.pins.#=1"},
-    {pinned, "range 0 30 trim", "rigs.0.pins.#=2"},
+     "s0.k0.frame=2; s0.k1.frame=12; s0.k2.frame=27; s0.k3.frame=28"},
+    {small, "range 13 40 move", "s0.k0={'frame':13,'value':0,'tag':1}; s0.k1.frame=14; s2.k0.frame=13"},
+    {small, "range 0 2 move", "s0.k2.frame=2; s0.k1.frame=1; s2.k0.frame=1"},
+    {pinned, "range 0 29 move", "r0.p1.frame=29; r0.p1.why='grip'"},
+    {pinned, "range 13 40 move", "r0.p0.frame=13; r0.p1.frame=30; s0.k0.frame=13"},
+    {pinned, "range 0 29 trim", "r0.p#=1"},
+    {pinned, "range 0 30 trim", "r0.p#=2"},
 
     // tails and channels
-    {small, "place t 0 0.5", "rigs.0.position=[0.5,0,0]"},
-    {small, "ride t 2 loop", "rigs.0.position=[0,0,{'spline':'loop'}]"},
-    {small, "length t 2.5", "rigs.0.length=2.5"},
-    {small, "angles t 1 gain 4", "rigs.0.channels.1.gain=4"},
-    {small, "angles t 1 lag 1 2 9", "rigs.0.channels.1.lag=[1,2,9]; rigs.0.channels.0.lag=6.5"},
-    {small, "angles t -1 rest 1 2 9", "rigs.0.rest=[1,2,9]"},
-    {small, "angles t 0 lag 0:1 0.5:2 1:-1", "rigs.0.channels.0.lag={'ramp':[[0,1],[0.5,2],[1,-1]]}"},
-    {small, "bend t 1 pluck - -", "rigs.0.channels.1={'spline':'pluck','axis':'up','lag':6.5,'gain':[1,2,3]}"},
-    {small, "bend t 1 - - displacement", "rigs.0.channels.1.of='displacement'; rigs.0.channels.1.spline='loop'"},
-    {small, "bend t 1 - side -", "rigs.0.channels.1.axis='side'"},
+    {small, "place t 0 0.5", "r0.position=[0.5,0,0]"},
+    {small, "ride t 2 loop", "r0.position=[0,0,{'spline':'loop'}]"},
+    {small, "length t 2.5", "r0.length=2.5"},
+    {small, "angles t 1 gain 4", "r0.c1.gain=4"},
+    {small, "angles t 1 lag 1 2 9", "r0.c1.lag=[1,2,9]; r0.c0.lag=6.5"},
+    {small, "angles t -1 rest 1 2 9", "r0.rest=[1,2,9]"},
+    {small, "angles t 0 lag 0:1 0.5:2 1:-1", "r0.c0.lag={'ramp':[[0,1],[0.5,2],[1,-1]]}"},
+    {small, "bend t 1 pluck - -", "r0.c1={'spline':'pluck','axis':'up','lag':6.5,'gain':[1,2,3]}"},
+    {small, "bend t 1 - - displacement", "r0.c1.of='displacement'; r0.c1.spline='loop'"},
+    {small, "bend t 1 - side -", "r0.c1.axis='side'"},
     {small, "channel t pluck up displacement",
-     "rigs.0.channels.#=3; rigs.0.channels.2={'spline':'pluck','axis':'up','of':'displacement','lag':6.5,'gain':5}"},
-    {small, "channel t pluck blink total", "rigs.0.channels.2.gain=100"},
-    {small, "channel t pluck up total; unchannel t 0", "rigs.0.channels.#=2; rigs.0.channels.1.spline='pluck'"},
-    {small, "unchannel t 1", "rigs.0.channels.#=1; rigs.0.channels.0.spline='sway'"},
-    {small, "tail t sway", "rigs.1.name='tail'; rigs.1.position=[1.2,0,0]; rigs.1.channels.1.gain=[1,2,3]"},
-    {small, "ride t 0 sway; tail t sway", "rigs.1.position=[{'spline':'sway'},0,0]"},
+     "r0.c#=3; r0.c2={'spline':'pluck','axis':'up','of':'displacement','lag':6.5,'gain':5}"},
+    {small, "channel t pluck blink total", "r0.c2.gain=100"},
+    {small, "channel t pluck up total; unchannel t 0", "r0.c#=2; r0.c1.spline='pluck'"},
+    {small, "unchannel t 1", "r0.c#=1; r0.c0.spline='sway'"},
+    {small, "tail t sway", "r1.name='tail'; r1.position=[1.2,0,0]; r1.c1.gain=[1,2,3]"},
+    {small, "ride t 0 sway; tail t sway", "r1.position=[{'spline':'sway'},0,0]"},
     {small, "tail -1 pluck",
-     "rigs.1.joints=24; rigs.1.position=[0,0.26,0]; rigs.1.rest=1.5; "
-     "rigs.1.channels=[{'spline':'pluck','axis':'side','lag':6.5,'gain':5}]"},
-    {small, "tail 9 -1", "rigs.1.channels=[]"},
-    {small, "tail t 0; rename 1 other; unrig t; angles other 1 lag 9",
-     "rigs.#=1; rigs.0.name='other'; rigs.0.channels.1.lag=9"},
-    {soft, "tail b 0; unrig a; unrig b", "rigs.0.type='character'; rigs.1.name='tail'; rigs.1.position.0=1.2"},
-    {pinned, "tail t 0", "rigs.2.pins="},
+     "r1.joints=24; r1.position=[0,0.26,0]; r1.rest=1.5; "
+     "r1.channels=[{'spline':'pluck','axis':'side','lag':6.5,'gain':5}]"},
+    {small, "tail 9 -1", "r1.channels=[]"},
+    {small, "tail t 0; rename 1 other; unrig t; angles other 1 lag 9", "r#=1; r0.name='other'; r0.c1.lag=9"},
+    {soft, "tail b 0; unrig a; unrig b", "r0.type='character'; r1.name='tail'; r1.position.0=1.2"},
+    {pinned, "tail t 0", "r2.pins="},
 
     // the gains of all joints together, and the lag from base to tip, stay; arrays are read at the same shares of the length
-    {small, "joints t 5",
-     "rigs.0.joints=5; rigs.0.channels.0.gain=3; rigs.0.channels.0.lag=3.9; "
-     "rigs.0.channels.1.gain=[0.6,0.9,1.2,1.5,1.8]"},
-    {small, "angles t 0 lag 1 2 9; joints t 2", "rigs.0.channels.0.lag=[1,9]"},
-    {small, "angles t -1 rest 2; angles t 0 lag 0:1 1:3; joints t 6",
-     "rigs.0.rest=1; rigs.0.channels.0.lag.ramp=[[0,1],[1,3]]"},
-    {small, "angles t 0 gain 0:1 1:3; joints t 6", "rigs.0.channels.0.gain.ramp=[[0,0.5],[1,1.5]]"},
-    {small, "bend t 1 - stretch -; joints t 5", "rigs.0.channels.1.gain=[1,1.5,2,2.5,3]"}, // moves it as a whole
-    {small, "joints t 1", "rigs.0.channels.1.gain=[3]"},
-    {small, "joints t 256", "rigs.0.joints=256"},
-    {pinned, "joints t 24", "rigs.0.pins.0.joint=11; rigs.0.pins.1.joint=23"},
-    {pinned, "joints t 1", "rigs.0.pins.0.joint=0; rigs.0.pins.1.joint=0"},
+    {small, "joints t 5", "r0.joints=5; r0.c0.gain=3; r0.c0.lag=3.9; r0.c1.gain=[0.6,0.9,1.2,1.5,1.8]"},
+    {small, "angles t 0 lag 1 2 9; joints t 2", "r0.c0.lag=[1,9]"},
+    {small, "angles t -1 rest 2; angles t 0 lag 0:1 1:3; joints t 6", "r0.rest=1; r0.c0.lag.ramp=[[0,1],[1,3]]"},
+    {small, "angles t 0 gain 0:1 1:3; joints t 6", "r0.c0.gain.ramp=[[0,0.5],[1,1.5]]"},
+    {small, "bend t 1 - stretch -; joints t 5", "r0.c1.gain=[1,1.5,2,2.5,3]"}, // moves it as a whole
+    {small, "joints t 1", "r0.c1.gain=[3]"},
+    {small, "joints t 256", "r0.joints=256"},
+    {pinned, "joints t 24", "r0.p0.joint=11; r0.p1.joint=23"},
+    {pinned, "joints t 1", "r0.p0.joint=0; r0.p1.joint=0"},
     {pinned, "pin t 30 10 0 0 0; joints t 6",
-     "rigs.0.pins.#=2; rigs.0.pins.0.joint=2; rigs.0.pins.1={'frame':30,'joint':5,'to':[0,0,0]}"}, // the first stays
+     "r0.p#=2; r0.p0.joint=2; r0.p1={'frame':30,'joint':5,'to':[0,0,0]}"}, // the first stays
 
     // pins, sorted by frame; with what is not known of them
     {pinned, "place t 0 1",
-     "rigs.0.pins=[{'frame':12.25,'joint':5,'to':[0.25,0,1]},{'frame':30,'joint':11,'to':[0,1,0.5],'why':'grip'}]"},
-    {pinned, "pin t 20 3 1 2 3", "rigs.0.pins.#=3; rigs.0.pins.1={'frame':20,'joint':3,'to':[1,2,3]}"},
-    {pinned, "pin t 30 3 1 2 3", "rigs.0.pins.1.joint=3; rigs.0.pins.2.joint=11"},
-    {pinned, "repin t 0 40 4 0 -2 0", "rigs.0.pins.0.why='grip'; rigs.0.pins.1={'frame':40,'joint':4,'to':[0,-2,0]}"},
-    {pinned, "repin t 1 29 4 0 -2 0", "rigs.0.pins.1={'frame':29,'joint':4,'to':[0,-2,0],'why':'grip'}"},
-    {pinned, "unpin t 0", "rigs.0.pins.#=1; rigs.0.pins.0.frame=30"},
+     "r0.pins=[{'frame':12.25,'joint':5,'to':[0.25,0,1]},{'frame':30,'joint':11,'to':[0,1,0.5],'why':'grip'}]"},
+    {pinned, "pin t 20 3 1 2 3", "r0.p#=3; r0.p1={'frame':20,'joint':3,'to':[1,2,3]}"},
+    {pinned, "pin t 30 3 1 2 3", "r0.p1.joint=3; r0.p2.joint=11"},
+    {pinned, "repin t 0 40 4 0 -2 0", "r0.p0.why='grip'; r0.p1={'frame':40,'joint':4,'to':[0,-2,0]}"},
+    {pinned, "repin t 1 29 4 0 -2 0", "r0.p1={'frame':29,'joint':4,'to':[0,-2,0],'why':'grip'}"},
+    {pinned, "unpin t 0", "r0.p#=1; r0.p0.frame=30"},
 
     // a character keeps its place among the rigs, and what moves it
-    {soft, "unrig a", "rigs.0.type='character'; rigs.0.model='../models/a.glb'; rigs.0.paint='a.npy'; rigs.0.glow=3"},
-    {soft, "drive 1 0 u -2 45",
-     "rigs.1.coordinates.0={'name':'up','spline':'u','amplitude':-2,'lag':45,'tint':'red'}"},
+    {soft, "unrig a", "r0.type='character'; r0.model='../models/a.glb'; r0.paint='a.npy'; r0.glow=3"},
+    {soft, "drive 1 0 u -2 45", "r1.d0={'name':'up','spline':'u','amplitude':-2,'lag':45,'tint':'red'}"},
     {soft, "drive 1 -1 s 1 0 twist; undrive 1 0",
-     "rigs.1.coordinates.#=2; rigs.1.coordinates.0.name='side'; "
-     "rigs.1.coordinates.1={'name':'twist','spline':'s','amplitude':1,'lag':0}"},
-    {soft, "order s 1", "rigs.1.coordinates.0.spline='s'; rigs.1.coordinates.1.spline='u'"},
-    {soft, "floor 1 -0.25", "rigs.1.floor=-0.25"},
-    {soft, "rename 1 creature", "rigs.1.name='creature'"},
+     "r1.d#=2; r1.d0.name='side'; r1.d1={'name':'twist','spline':'s','amplitude':1,'lag':0}"},
+    {soft, "order s 1", "r1.d0.spline='s'; r1.d1.spline='u'"},
+    {soft, "floor 1 -0.25", "r1.floor=-0.25"},
+    {soft, "rename 1 creature", "r1.name='creature'"},
 
     // joints of clips; names that motions go by are renamed with what they name
     {jointed, "follow alone equilibrium dog spine up 3",
-     "splines.3.equilibrium={'model':'dog','joint':'spine','of':'up','gain':3}"},
+     "s3.equilibrium={'model':'dog','joint':'spine','of':'up','gain':3}"},
     {jointed, "follow alone equilibrium dog spine up 3; follow alone equilibrium dog spine up 4",
-     "splines.3.equilibrium.gain=4"},
+     "s3.equilibrium.gain=4"},
     {jointed, "follow alone equilibrium dog spine up 3 tail; follow alone equilibrium dog spine turn 3",
-     "splines.3.equilibrium.chain="},
-    {jointed, "follow alone equilibrium dog.glb spine up 3; set alone equilibrium 1", "splines.3.equilibrium=1"},
-    {jointed, "track wag equilibrium alone", "splines.0.equilibrium={'spline':'alone'}"},
-    {jointed, "rename dog wolf",
-     "splines.0.equilibrium.model='wolf'; splines.1.equilibrium.model='dog.glb'; rigs.1.model='wolf'"},
-    {jointed, "rename tail brush", "splines.0.equilibrium.chain='brush'; splines.0.equilibrium.why=1"},
-    {jointed, "clip dog Run", "rigs.0.clip='Run'"},
-    {jointed, "turn tail 30", "rigs.1.turn=30"},
+     "s3.equilibrium.chain="},
+    {jointed, "follow alone equilibrium dog.glb spine up 3; set alone equilibrium 1", "s3.equilibrium=1"},
+    {jointed, "track wag equilibrium alone", "s0.equilibrium={'spline':'alone'}"},
+    {jointed, "rename dog wolf", "s0.equilibrium.model='wolf'; s1.equilibrium.model='dog.glb'; r1.model='wolf'"},
+    {jointed, "rename tail brush", "s0.equilibrium.chain='brush'; s0.equilibrium.why=1"},
+    {jointed, "clip dog Run", "r0.clip='Run'"},
+    {jointed, "turn tail 30", "r1.turn=30"},
     {jointed, "set ear equilibrium 0; track wag equilibrium alone; unrig tail; unrig dog", "rigs=[]"},
 };
 
@@ -423,6 +407,54 @@ TEST(impossible_edits_are_refused_in_a_sentence)
         assert_refused(&world, false, r->says);
         world_close(&world);
     }
+}
+
+/// Paint is on a character's coordinates and vertices, within limits; where a dab is refused nothing is painted.
+WORLD_TEST(paint_is_bounded, world_open_scene(world, json(soft)))
+{
+    static const struct {
+        int coordinate, vertex;
+        float swell, lead;
+        const char *says; ///< NULL: painted
+    } rows[] = {
+        {0, 0, 10, 0, NULL},
+        {1, 2, -10, 1000, NULL},
+        {-1, 0, 0, 0, "there is no such coordinate in the paint"},
+        {2, 0, 0, 0, "there is no such coordinate in the paint"},
+        {0, 3, 0, 0, "paint must be finite, and on the model"},
+        {0, -1, 0, 0, "paint must be finite, and on the model"},
+        {0, 0, 10.5f, 0, "paint must be finite, and on the model"},
+        {0, 0, 0, -1001, "paint must be finite, and on the model"},
+        {0, 0, NAN, 0, "paint must be finite, and on the model"},
+    };
+    struct dab dab = {.count = 1};
+    assert_refused(world, EDIT(edit_paint, 1, &dab), "this character has no paint yet");
+    assert_refused(world, EDIT(edit_paint, 0, &dab), "there is no such character");
+    assert_refused(world, EDIT(edit_paint_new, 0, 2, 3), "there is no such character");
+    assert_refused(world, EDIT(edit_paint_new, 1, 0, 3), "there is nothing to paint on this character");
+    assert_refused(world, EDIT(edit_paint_new, 1, 2, 0), "there is nothing to paint on this character");
+    world_must(world, EDIT(edit_paint_new, 1, 2, 3));
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const float value[1][2] = {{rows[i].swell, rows[i].lead}};
+        dab = (struct dab){rows[i].coordinate, 1, &rows[i].vertex, value};
+        const bool done = EDIT(edit_paint, 1, &dab);
+        if (rows[i].says) assert_refused(world, done, rows[i].says);
+        if (!rows[i].says) world_must(world, done);
+    }
+    const struct paint *paint = document_character(world->document, 0)->painted;
+    for (int n = 0; n < 6; n++) {
+        assert_near(paint->values[n][0], n == 0 ? 10 : n == 5 ? -10 : 0, 0);
+        assert_near(paint->values[n][1], n == 5 ? 1000 : 0, 0);
+    }
+    assert_true(history_undo(world->history) && history_undo(world->history));
+    assert_true(paint_is_plain(document_character(world->document, 0)->painted));
+}
+
+WORLD_TEST(a_place_follows_no_joint, world_open_scene(world, json(small)))
+{
+    struct rig riding = *world->document->rigs[0];
+    riding.tail.position[2] = (struct param){.track = -1, .motion = &(struct joint_motion){.gain = 1}};
+    assert_refused(world, EDIT(edit_rig_set, 0, &riding), "t: only an equilibrium follows a joint");
 }
 
 // --- ids, which no file has

@@ -216,7 +216,7 @@ TEST(random_walks_lead_back)
         for (int i = 0; i < 300; i++) {
             random_step(&world, done);
             assert_invariants(world.document);
-            if (i % 10 == 0) assert_loads_again(world.document);
+            if (i % 5 == 0) assert_loads_again(world.document);
         }
         while (history_redo(world.history)) continue;
         const char *last = world_print(&world);

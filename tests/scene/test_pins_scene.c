@@ -1,8 +1,8 @@
 /// Pins and floors of whole scenes: points of characters, tails and chains are where they must be and no vertex is below its floor, whatever
 /// was edited before; and a motion is a continuous function of where a pin is to be.
-#include "documents.h"
 #include "stand.h"
 #include "temporary.h"
+#include "world.h"
 
 static struct document *document_of(const struct stand *stand) { return stand->opened.document; }
 
@@ -101,71 +101,27 @@ TEST(pulls_are_derivatives)
 /// A creature and a tail share a spline; another tail, on a base that moves, follows what moves the creature.
 static const char zoo[] =
     "{'frames': [0, 60], 'splines': [{'name': 'up', 'frequency': 1.5, 'damping': 0.1, 'knots': [{'frame': 0, "
-    "'value': "
-    "0.2}, {'frame': 20, 'value': 1}]}, {'name': 'side', 'frequency': 1, 'damping': 0.1, 'equilibrium': 0.3, "
-    "'knots': "
-    "[{'frame': 5, 'value': -0.5}]}, {'name': 'sway', 'frequency': 0.8, 'damping': 0.1, 'knots': [{'frame': 50, "
-    "'value': 0.1}]}, {'name': 'after', 'frequency': 2, 'damping': 0.2, 'equilibrium': {'spline': 'up'}}], 'rigs': "
-    "[{'type': 'character', 'name': 'creature', 'model': '%s/creature.glb', 'position': [0.5, 1, -0.25], "
-    "'coordinates': [{'name': 'up-3', 'spline': 'up', 'amplitude': 11, 'lag': 40}, {'name': 'side-2', 'spline': "
-    "'side', 'amplitude': 4, 'lag': -10}]}, {'type': 'tail', 'name': 'shared', 'joints': 10, 'position': [1, 0.5, "
-    "0], "
-    "'channels': [{'spline': 'side', 'gain': 6}, {'spline': 'sway', 'axis': 'up', 'gain': 7}]}, {'type': 'tail', "
-    "'name': 'own', 'joints': 12, 'position': [0, {'spline': 'up'}, 0], 'rest': 3, 'channels': [{'spline': 'after', "
-    "'gain': 7, 'of': 'displacement'}]}]}";
+    "'value': 0.2}, {'frame': 20, 'value': 1}]}, {'name': 'side', 'frequency': 1, 'damping': 0.1, 'equilibrium': "
+    "0.3, 'knots': [{'frame': 5, 'value': -0.5}]}, {'name': 'sway', 'frequency': 0.8, 'damping': 0.1, 'knots': "
+    "[{'frame': 50, 'value': 0.1}]}, {'name': 'after', 'frequency': 2, 'damping': 0.2, 'equilibrium': {'spline': "
+    "'up'}}, {'name': 'east', 'mode': 'cubic', 'knots': [{'frame': 9, 'value': 0.1}]}, {'name': 'south', 'mode': "
+    "'cubic', 'knots': [{'frame': 9, 'value': -0.1}]}], 'rigs': [{'type': 'character', 'name': 'creature', 'model': "
+    "'%s/creature.glb', 'position': [0.5, 1, -0.25], 'coordinates': [{'name': 'up-3', 'spline': 'up', 'amplitude': "
+    "11, 'lag': 40}, {'name': 'side-2', 'spline': 'side', 'amplitude': 4, 'lag': -10}]}, {'type': 'tail', 'name': "
+    "'shared', 'joints': 10, 'position': [1, 0.5, 0], 'channels': [{'spline': 'side', 'gain': 6}, {'spline': 'sway', "
+    "'axis': 'up', 'gain': 7}]}, {'type': 'tail', 'name': 'own', 'joints': 12, 'position': [{'spline': 'east'}, "
+    "{'spline': 'up'}, {'spline': 'south'}], 'rest': 3, 'channels': [{'spline': 'after', 'gain': 7, 'of': "
+    "'displacement'}]}]}";
 
 enum { CREATURE, SHARED, OWN };
 
-/// How freely splines move a point: 1 where equally far in all directions, 0 where some cannot be reached.
-static double freedom(pin_pull *const c, int count)
-{
-    double b[3][3] = {{0}}, trace = 0;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            for (int s = 0; s < count; s++) b[i][j] += c[s][i][0] * c[s][j][0] + c[s][i][1] * c[s][j][1];
-        }
-        trace += b[i][i] / 3;
-    }
-    const double det = b[0][0] * (b[1][1] * b[2][2] - b[1][2] * b[2][1]) -
-                       b[0][1] * (b[1][0] * b[2][2] - b[1][2] * b[2][0]) +
-                       b[0][2] * (b[1][0] * b[2][1] - b[1][1] * b[2][0]);
-    return trace > 0 ? det / (trace * trace * trace) : 0;
-}
+/// Where splines move points freely, each in another direction: so of the creature of the zoo, and of the tail's last joint at a frame.
+enum { VERTEX = 1677, TIP = 23, FREE_FRAME = 74 };
 
-/// The vertex that the splines move most freely of those that they move by at least a few centimetres a unit.
-static int free_vertex(struct stand *stand)
+static void edit(struct stand *stand, const char *words)
 {
-    const int vertices = models_figure(stand->opened.models, 0)->character.vertex_count;
-    int freest = 0;
-    double most = 0;
-    for (int v = 0; v < vertices; v += 3) {
-        pin_pull c[64];
-        double far = 0;
-        stand_find(stand, CREATURE, v, 0, c);
-        for (int n = 0; n < 6; n++)
-            far += c[n / 3][n % 3][0] * c[n / 3][n % 3][0] + c[n / 3][n % 3][1] * c[n / 3][n % 3][1];
-        const double freely = freedom(c, 4);
-        if (far < 0.03 || freely <= most) continue;
-        most = freely;
-        freest = v;
-    }
-    if (most < 0.2) fail_msg("the splines hardly move the creature anywhere: %g", most);
-    return freest;
-}
-
-/// The frame from `from` on at which the splines move a tail's joint most freely.
-static int free_frame(struct stand *stand, int joint, int from)
-{
-    int freest = from;
-    double most = 0;
-    for (int frame = from; frame < document_of(stand)->last_frame; frame++) {
-        pin_pull c[64];
-        stand_find(stand, 0, joint, frame, c);
-        if (freedom(c, 2) <= most) continue;
-        most = freedom(c, 2);
-        freest = frame;
-    }
-    return freest;
+    struct world world = {.document = document_of(stand), .history = stand->history};
+    world_must(&world, world_do_all(&world, words));
 }
 
 /// Pins a point where it would be if all splines were `re` and `im` away from where they are. Returns how far that is from where it is.
@@ -218,9 +174,8 @@ static void assert_met(struct stand *stand, int rig, double tolerance)
 
 STAND_TEST(a_character_meets_its_pins, *stand = open_text(zoo))
 {
-    const int vertex = free_vertex(stand);
-    pin_near(stand, CREATURE, vertex, 30, 0.4, -0.3);
-    pin_near(stand, CREATURE, vertex, 41, -0.5, 0.2);
+    pin_near(stand, CREATURE, VERTEX, 30, 0.4, -0.3);
+    pin_near(stand, CREATURE, VERTEX, 41, -0.5, 0.2);
     stand_solve(stand);
     assert_met(stand, CREATURE, 1e-9);
     assert_same_as_whole(stand);
@@ -228,8 +183,8 @@ STAND_TEST(a_character_meets_its_pins, *stand = open_text(zoo))
 
 STAND_TEST(a_tail_meets_its_pins, *stand = open_path("assets/scenes/tail.json"))
 {
-    pin_near(stand, 0, 23, 30, 0.2, 0.1);
-    pin_near(stand, 0, 23, free_frame(stand, 23, 70), -0.1, 0.1);
+    pin_near(stand, 0, TIP, 30, 0.2, 0.1);
+    pin_near(stand, 0, TIP, FREE_FRAME, -0.1, 0.1);
     stand_solve(stand);
     assert_met(stand, 0, 1e-6);
     assert_same_as_whole(stand);
@@ -250,16 +205,16 @@ STAND_TEST(a_tail_on_a_moving_base_is_pinned, *stand = open_path("assets/scenes/
     const double far = pin_near(stand, 0, 23, 30, 0.1, 0.1);
     assert_same_as_whole(stand);
     assert_true(left_of(stand, 0, 0) < 0.5 * far);
-    struct knot base = document_of(stand)->splines[0]->knots[1];
-    base.value = 0.9;
-    stand_end(stand, edit_knot_set(stand_begin(stand), 0, &base, NULL));
+    char words[64];
+    snprintf(words, sizeof words, "move 0 1 %g 0.9", document_of(stand)->splines[0]->knots[1].frame);
+    edit(stand, words);
     assert_same_as_whole(stand); // the pinned splines follow the base by a track, and where it is
 }
 
 STAND_TEST(rigs_may_share_splines, *stand = open_text(zoo))
 {
     const double own = stand_find(stand, OWN, 11, 20, NULL).at[1];
-    pin_near(stand, CREATURE, free_vertex(stand), 30, 0.4, -0.3);
+    pin_near(stand, CREATURE, VERTEX, 30, 0.4, -0.3);
     pin_near(stand, SHARED, 9, 44, 0.1, 0);
     stand_solve(stand);
     assert_met(stand, CREATURE, 1e-6);
@@ -270,45 +225,27 @@ STAND_TEST(rigs_may_share_splines, *stand = open_text(zoo))
     assert_same_as_whole(stand);
 }
 
-/// Edit number `i` of those below; false after the last.
-static bool edit_once(struct document *document, int i)
-{
-    const struct rig *shared = document->rigs[SHARED];
-    struct pin moved = shared->pins ? shared->pins[0] : (struct pin){0};
-    struct knot knot = document->splines[0]->knots[1];
-    struct angles gain = shared->tail.channels[1].gain;
-    struct rig aside = *shared;
-    switch (i) {
-    case 0:
-        moved.to[1] += 0.1;
-        moved.frame = 40;
-        return edit_pin_set(document, SHARED, &moved, NULL);
-    case 1:
-        gain.value[0] = 9;
-        return edit_angles(document, (struct channel_place){SHARED, 1}, ANGLE_GAIN, &gain, NULL);
-    case 2:
-        knot.value = 0.5;
-        return edit_knot_set(document, 0, &knot, NULL);
-    case 3:
-        aside.tail.position[0] = param_number(0.9);
-        return edit_rig_set(document, SHARED, &aside, NULL);
-    case 4: // the creature, then the one that shares, then the one of its own
-    case 5:
-    case 6:
-        return edit_pin_remove(document, i - 4, document->rigs[i - 4]->pins[0].id, NULL);
-    default:
-        return false;
-    }
-}
-
 /// Whatever was edited, undone and looked at in between, the curves are those of the document.
 STAND_TEST(edits_give_the_same_bits, *stand = open_text(zoo))
 {
-    pin_near(stand, CREATURE, free_vertex(stand), 30, 0.4, -0.3);
+    static const char *const edits[] = {"repin shared 0 40 9 1 0.6 1.2",
+                                        "angles shared 1 gain 9",
+                                        "move up 1 20 0.5",
+                                        "place shared 0 0.9",
+                                        "move east 0 9 0.4",
+                                        "move south 0 9 0.3",
+                                        "unpin creature 0",
+                                        "move south 0 9 0.5",
+                                        "bend own 0 - stretch -",
+                                        "unpin own 0",
+                                        "move east 0 9 -0.4",
+                                        "unpin shared 0"};
+    pin_near(stand, CREATURE, VERTEX, 30, 0.4, -0.3);
     pin_near(stand, SHARED, 9, 44, 0.1, 0.2);
     pin_near(stand, OWN, 7, 10, 0.2, 0.2);
-    for (int i = 0; i < 7; i++) {
-        stand_end(stand, edit_once(stand_begin(stand), i));
+    assert_same_as_whole(stand);
+    for (size_t i = 0; i < sizeof edits / sizeof *edits; i++) {
+        edit(stand, edits[i]);
         assert_same_as_whole(stand);
     }
     evaluation_update(&stand->opened.evaluation, document_of(stand), true);
@@ -558,16 +495,11 @@ TEST(a_floor_gives_the_same_bits)
 
 STAND_TEST(a_floor_above_the_feet_is_refused, *stand = open_floor("free", "", "", ", 'floor': -1"))
 {
-    const struct document *document = document_of(stand);
-    struct rig changed = *document->rigs[0];
-    changed.character.floor = 0.5;
-    assert_refusal(edit_rig_set(stand_begin(stand), 0, &changed, &error), "floor: expected a height of at most 0");
-    assert_true(document->rigs[0]->character.floor == -1);
-    changed.character.floor = -0.25;
-    stand_end(stand, edit_rig_set(document_of(stand), 0, &changed, NULL));
-    assert_true(document->rigs[0]->character.floor == -0.25);
-    assert_true(history_undo(stand->history));
-    assert_true(document->rigs[0]->character.floor == -1);
+    struct world world = {.document = document_of(stand), .history = stand->history};
+    assert_refused(&world, world_do(&world, "floor creature 0.5"),
+                   "creature: floor: expected a height of at most 0, which is what the character stands on, got 0.5");
+    assert_reversible(&world, world_do(&world, "floor creature -0.25"));
+    assert_true(document_character(document_of(stand), 0)->floor == -0.25);
 }
 
 /// A vertex low down that the splines move, and where it is at a sample.

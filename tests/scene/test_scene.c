@@ -266,7 +266,7 @@ TEST(knots_are_on_samples)
     const struct spline *spline = document->splines[0];
     assert_int_equal(document_samples(document), 81);
     assert_near(document_step(document), 0.01, 1e-18);
-    assert_file_says(document, "splines.0.knots.0={'frame':-10.125,'value':1}", "knots");
+    assert_file_says(document, "s0.k0={'frame':-10.125,'value':1}", "knots");
     static const int rows[][3] = {{0, 0, 0}, {41, 1, 1}, {80, 2, 2}, {40, -1, 1}, {1, -1, 1}, {81, -1, 3}};
     for (int i = 0; i < 6; i++) { // a half goes up
         assert_int_equal(spline_find_knot(document, spline, rows[i][0]), rows[i][1]);
@@ -421,8 +421,7 @@ TEST_WITH(folder_make, folder_remove, a_scene_saved_elsewhere_finds_its_model)
     assert_done(scene_save(document, path, &error));
     assert_string_equal(document_character(document, 0)->model, "models/a.glb");
     struct document *loaded = document_of_file(path);
-    assert_file_says(loaded, "rigs.0.model='../models/a.glb'; splines.0.equilibrium.model='../dog.glb'",
-                     "saved elsewhere");
+    assert_file_says(loaded, "r0.model='../models/a.glb'; s0.equilibrium.model='../dog.glb'", "saved elsewhere");
     assert_true(path_resolve(loaded->folder, document_character(loaded, 0)->model, absolute));
     assert_string_equal(absolute, folder_path("models/a.glb"));
     document_destroy(document);

@@ -148,6 +148,39 @@ SOLVED_TEST(a_value_beyond_reach_is_flat,
     }
 }
 
+/// Finds no point.
+static bool find_nothing(void *context, const struct evaluation *evaluation, const struct document *document,
+                         const struct pin_query *query, pin_pull *c, struct pin_point *point)
+{
+    (void)context, (void)evaluation, (void)document, (void)query, (void)c, (void)point;
+    return false;
+}
+
+static void weigh_nothing(void *context, const struct document *document, int rig, const int *splines, int count,
+                          double *weights)
+{
+    (void)context, (void)document, (void)rig, (void)splines, (void)count, (void)weights;
+}
+
+/// Where nobody knows where points are, pins are ignored: every curve is the one without them.
+SOLVED_TEST(
+    pins_of_no_point_are_ignored,
+    "{'frames': [0, 40], 'splines': [{'name': 'a', 'frequency': 1, 'knots': [{'frame': 3, 'value': 1}]}, {'name': "
+    "'b', 'frequency': 2, 'equilibrium': 1}, {'name': 'c', 'frequency': 3, 'equilibrium': {'spline': 'b'}}], 'rigs': "
+    "[{'type': 'tail', 'name': 't', 'channels': [{'spline': 'b'}, {'spline': 'a', 'axis': 'up'}]}]}")
+{
+    double free_curves[3][41];
+    for (int i = 0; i < 3; i++) memcpy(free_curves[i], s->evaluation.curves[i].total, sizeof free_curves[i]);
+    assert_int_equal(solve_after(s, "pin t 20 5 0 1 0"), 0);
+    s->evaluation.models.find = find_nothing, s->evaluation.models.weigh = weigh_nothing;
+    s->evaluation.models.version++;
+    assert_int_equal(solve(s), 3); // two in a group and what follows it
+    for (int i = 0; i < 3 * 41; i++)
+        assert_near(s->evaluation.curves[i / 41].total[i % 41], free_curves[i / 41][i % 41], 1e-12);
+    solve_after(s, "set b equilibrium 2");
+    assert_near(s->evaluation.curves[2].y[9], s->evaluation.curves[1].total[9], 0);
+}
+
 // --- equilibria that follow a joint
 
 static const char walk[] =
