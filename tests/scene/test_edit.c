@@ -409,6 +409,27 @@ TEST(impossible_edits_are_refused_in_a_sentence)
     }
 }
 
+/// Angles as edits say them, and what a joint of how many has: a ramp is linear between its points, and constant outside.
+WORLD_TEST(angles_of_joints, world_open_scene(world, json(small)))
+{
+    static const struct {
+        const char *said;
+        int joint, joints;
+        double angle, lag;
+    } rows[] = {{"3", 4, 9, 3, 12},           {"1 2 9", 1, 3, 2, 2},         {"1 2 9", 2, 3, 9, 9},
+                {"1 2 9", 7, 9, 9, 9},        {"0:1 1:3", 0, 5, 1, 1},       {"0:1 1:3", 4, 5, 3, 3},
+                {"0:1 1:3", 1, 5, 1.5, 1.5},  {"0:1 1:3", 0, 1, 1, 1},       {"0.5:1 0.75:3", 1, 5, 1, 1},
+                {"0.5:1 0.75:3", 4, 5, 3, 3}, {"0:0 0.5:2 1:-2", 3, 5, 0, 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char edit[64];
+        snprintf(edit, sizeof edit, "angles t 1 lag %s", rows[i].said);
+        world_must(world, world_do(world, edit));
+        const struct angles *lag = &document_tail(world->document, 0)->channels[1].lag;
+        assert_near(angles_at(lag, rows[i].joint, rows[i].joints), rows[i].angle, 1e-12);
+        assert_near(angles_lag(lag, rows[i].joint, rows[i].joints), rows[i].lag, 1e-12);
+    }
+}
+
 /// Paint is on a character's coordinates and vertices, within limits; where a dab is refused nothing is painted.
 WORLD_TEST(paint_is_bounded, world_open_scene(world, json(soft)))
 {

@@ -40,7 +40,7 @@ static struct rig_pose pose_at(const struct figure_scene *s, int sample)
 #define FIGURE_TEST(name)                                                                                            \
     TEST_OF(struct figure_scene, s, open_scene(s, "assets/scenes/" #name ".json"), close_scene(s), name)
 
-static const wiggly_curve *curve(const struct figure_scene *s, const char *name)
+static const wiggly_curve *curve_of(const struct figure_scene *s, const char *name)
 {
     int spline = document_find_spline(s->document, name);
     assert_true(spline >= 0);
@@ -73,7 +73,7 @@ static void assert_hits_knots(const struct figure_scene *s, const char *name)
     const struct spline *spline = s->document->splines[document_find_spline(s->document, name)];
     for (int i = 0; i < spline->knot_count; i++) {
         int sample = document_sample(s->document, spline->knots[i].frame);
-        assert_near(curve(s, name)->total[sample], spline->knots[i].value, 0);
+        assert_near(curve_of(s, name)->total[sample], spline->knots[i].value, 0);
     }
 }
 
@@ -82,7 +82,7 @@ static void assert_hits_knots(const struct figure_scene *s, const char *name)
 FIGURE_TEST(figure1)
 {
     double smallest;
-    const double *total = curve(s, "curve")->total;
+    const double *total = curve_of(s, "curve")->total;
     assert_hits_knots(s, "curve");
     for (int i = 1; i < 90; i++) assert_true(total[i] > total[i - 1]);
     for (int i = 2; i < 85; i++) assert_near(third_difference(total, i), third_difference(total, 1), 1e-12);
@@ -92,7 +92,7 @@ FIGURE_TEST(figure1)
 /// Three keyed knots on the real part; the imaginary part is computed, and turns a quarter of a period with it.
 FIGURE_TEST(figure3)
 {
-    const wiggly_curve *shown = curve(s, "curve");
+    const wiggly_curve *shown = curve_of(s, "curve");
     double re = 0, im = 0, cross = 0;
     assert_hits_knots(s, "curve");
     for (int i = 40; i < 104; i++) {
@@ -111,9 +111,9 @@ FIGURE_TEST(figure4)
     double smallest;
     assert_hits_knots(s, "before");
     assert_hits_knots(s, "moved");
-    assert_int_equal(count_extrema(curve(s, "before")->total, 36 + 3, 108 - 3, &smallest), 5);
+    assert_int_equal(count_extrema(curve_of(s, "before")->total, 36 + 3, 108 - 3, &smallest), 5);
     for (int is_spring = 0; is_spring < 2; is_spring++) {
-        assert_int_equal(count_extrema(curve(s, "moved")->total, 36 + 3, 115 - 3, &smallest), 5);
+        assert_int_equal(count_extrema(curve_of(s, "moved")->total, 36 + 3, 115 - 3, &smallest), 5);
         assert_near(smallest, is_spring ? 0.598 : 0.795, 0.0005);
         for (int i = 0; i < s->document->spline_count; i++)
             document_own_spline(s->document, i)->parameter[PARAMETER_MODE].value = WIGGLY_REAL;
@@ -146,7 +146,8 @@ static void assert_forward_response(const wiggly_curve *shown, const struct spli
 FIGURE_TEST(figure5)
 {
     double smallest, largest = 0;
-    const wiggly_curve *still = curve(s, "equilibrium"), *loose = curve(s, "free"), *edited = curve(s, "edited");
+    const wiggly_curve *still = curve_of(s, "equilibrium"), *loose = curve_of(s, "free"),
+                       *edited = curve_of(s, "edited");
     for (int i = 0; i <= 192; i++) {
         assert_near(loose->y[i], still->total[i], 0);
         largest = fmax(largest, loose->total[i]);
@@ -314,22 +315,25 @@ FIGURE_TEST(character)
 
 // --- the classical splines at both ends of the scale
 
-static const double knot_value[] = {0, 1, -0.5, 0.7}, knot_slope[] = {0.5, 0, -1, 2};
-static const int knot_frame[] = {0, 24, 60, 96};
+/// What SciPy makes of four knots at every eighth frame: CubicSpline(bc_type="natural") without tangents, and CubicHermiteSpline.
+static const double classical[2][13] = {{0, 0.490290290, 0.862862863, 1, 0.827360694, 0.444110777, -0.007207207,
+                                         -0.384050717, -0.548181515, -0.460360360, -0.180347014, 0.227794461, 0.7},
+                                        {0, 0.333333333, 0.777777778, 1, 0.868312757, 0.539094650, 0.111111111,
+                                         -0.316872428, -0.623456790, -0.633333333, -0.376543210, 0.087654321, 0.7}};
 
-/// The largest difference, at every eighth frame, between our cubic through four knots and numbers that SciPy made.
-static double cubic_error(int substeps, double stiffness, const double *expected)
+/// The largest difference between our cubic and one of those.
+static double cubic_error(int substeps, double stiffness, const double expected[13])
 {
-    enum { KNOTS = 4, FRAMES = 96 };
-    wiggly_knot knots[KNOTS];
-    const int samples = FRAMES * substeps + 1;
+    wiggly_knot knots[] = {{.sample = 0, .value = 0, .slope = 0.5},
+                           {.sample = 24, .value = 1, .slope = 0},
+                           {.sample = 60, .value = -0.5, .slope = -1},
+                           {.sample = 96, .value = 0.7, .slope = 2}};
+    const int samples = 96 * substeps + 1;
     double worst = 0;
-    for (int i = 0; i < KNOTS; i++) {
-        knots[i] = (wiggly_knot){.sample = knot_frame[i] * substeps,
-                                 .has_slope = stiffness > 0,
-                                 .value = knot_value[i],
-                                 .slope = knot_slope[i],
-                                 .stiffness = stiffness};
+    for (int i = 0; i < 4; i++) {
+        knots[i].sample *= substeps;
+        knots[i].has_slope = stiffness > 0;
+        knots[i].stiffness = stiffness;
     }
     wiggly_desc desc = wiggly_default_desc();
     desc.mode = WIGGLY_CUBIC;
@@ -337,58 +341,30 @@ static double cubic_error(int substeps, double stiffness, const double *expected
     desc.samples = samples;
     desc.step = 1.0 / (24 * substeps);
     desc.knots = knots;
-    desc.knot_count = KNOTS;
-    wiggly_curve solved = curve_create(samples);
-    curve_solve(&solved, &desc);
-    for (int i = 0; i <= FRAMES / 8; i++) worst = fmax(worst, fabs(solved.total[8 * i * substeps] - expected[i]));
-    curve_destroy(&solved);
+    desc.knot_count = 4;
+    wiggly_curve curve = curve_create(samples);
+    curve_solve(&curve, &desc);
+    for (int i = 0; i < 13; i++) worst = fmax(worst, fabs(curve.total[8 * i * substeps] - expected[i]));
+    curve_destroy(&curve);
     return worst;
 }
 
-/// Without tangents the natural C² cubic (scipy.interpolate.CubicSpline, bc_type="natural").
 TEST(a_cubic_is_the_natural_spline)
 {
-    static const double natural[] = {0,
-                                     0.490290290,
-                                     0.862862863,
-                                     1,
-                                     0.827360694,
-                                     0.444110777,
-                                     -0.007207207,
-                                     -0.384050717,
-                                     -0.548181515,
-                                     -0.460360360,
-                                     -0.180347014,
-                                     0.227794461,
-                                     0.700000000};
-    double coarse = cubic_error(4, 0, natural), fine = cubic_error(32, 0, natural);
+    const double coarse = cubic_error(4, 0, classical[0]), fine = cubic_error(32, 0, classical[0]);
     assert_true(coarse < 1e-3 && fine < 1e-5);
     assert_true(fine < coarse / 50); // as h²
 }
 
-/// With tangents that are held more and more firmly it becomes the Hermite cubic (scipy.interpolate.CubicHermiteSpline): global
-/// smoothness at one end of the scale, local support at the other.
+/// With tangents that are held more and more firmly: global smoothness at one end of the scale, local support at the other.
 TEST(stiff_tangents_make_the_hermite_cubic)
 {
-    static const double hermite[] = {0,
-                                     0.333333333,
-                                     0.777777778,
-                                     1,
-                                     0.868312757,
-                                     0.539094650,
-                                     0.111111111,
-                                     -0.316872428,
-                                     -0.623456790,
-                                     -0.633333333,
-                                     -0.376543210,
-                                     0.087654321,
-                                     0.700000000};
     double before = INFINITY;
     for (double stiffness = 0.01; stiffness < 1e5; stiffness *= 100) {
-        double error = cubic_error(32, stiffness, hermite);
+        const double error = cubic_error(32, stiffness, classical[1]);
         assert_true(error < before);
         before = error;
     }
-    double coarse = cubic_error(16, 1e8, hermite), fine = cubic_error(64, 1e8, hermite);
+    const double coarse = cubic_error(16, 1e8, classical[1]), fine = cubic_error(64, 1e8, classical[1]);
     assert_true(coarse < 0.01 && fine < 0.3 * coarse); // as h: eq. 9 holds the slope half a sample late
 }

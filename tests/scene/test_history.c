@@ -157,26 +157,15 @@ static int any(int count) { return rand() % (count > 0 ? count : 1); }
 static int put_random(const struct document *document, char what, char *to)
 {
     static const char *const names[] = {"a", "b", "sway", "t", "e-2"};
-    switch (what) {
-    case 'S':
-        return sprintf(to, "%d", any(document->spline_count));
-    case 'R':
-        return sprintf(to, "%d", any(document->rig_count));
-    case 'K':
-        return sprintf(to, "%d", rand() % 5);
-    case 'N':
-        return sprintf(to, "%d", rand() % 9);
-    case 'F':
-        return sprintf(to, "%.3f", (rand() % 450 - 30) / 8.0);
-    case 'V':
-        return sprintf(to, "%.7f", (rand() % 2 ? 1 : 0.125) * (rand() % 2001 - 1000) / 128.0);
-    case 'W':
-        return sprintf(to, "%s", names[rand() % 5]);
-    case 'P':
-        return sprintf(to, "%d", rand() % PARAMETER_COUNT);
-    default:
-        return sprintf(to, "%c", what);
-    }
+    if (what == 'S') return sprintf(to, "%d", any(document->spline_count));
+    if (what == 'R') return sprintf(to, "%d", any(document->rig_count));
+    if (what == 'K') return sprintf(to, "%d", rand() % 5);
+    if (what == 'N') return sprintf(to, "%d", rand() % 9);
+    if (what == 'F') return sprintf(to, "%.3f", (rand() % 450 - 30) / 8.0);
+    if (what == 'V') return sprintf(to, "%.7f", (rand() % 2 ? 1 : 0.125) * (rand() % 2001 - 1000) / 128.0);
+    if (what == 'W') return sprintf(to, "%s", names[rand() % 5]);
+    if (what == 'P') return sprintf(to, "%d", rand() % PARAMETER_COUNT);
+    return sprintf(to, "%c", what);
 }
 
 static void random_edit(const struct document *document, char edit[128])
@@ -248,6 +237,7 @@ WORLD_TEST(the_history_is_bounded, world_open(world))
     int undone = world_undo_all(world);
     assert_true(undone > 100);
     assert_int_equal(dropped + (size_t)undone, STEPS);
+    assert_label(world, NULL);
     assert_near(nudged(world), STEPS - undone, 0);
     while (history_redo(world->history)) continue;
     assert_near(nudged(world), STEPS, 0);

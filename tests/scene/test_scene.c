@@ -4,6 +4,7 @@
 
 #include "base/names.h"
 #include "scene/edit.h"
+#include "scene/knots.h"
 #include "scene/text.h"
 #include <dirent.h>
 #include <sys/stat.h>
@@ -426,4 +427,54 @@ TEST_WITH(folder_make, folder_remove, a_scene_saved_elsewhere_finds_its_model)
     assert_string_equal(absolute, folder_path("models/a.glb"));
     document_destroy(document);
     document_destroy(loaded);
+}
+
+/// A file that recovers a scene says which one, and of what content; only this user may read it.
+TEST_WITH(folder_make, folder_remove, a_recovery_knows_its_scene)
+{
+    static const struct scene_origin origins[] = {{"/home/me/walk \xff\"1\".json", 0x5f3a91c07be2d846}, {"", 0}};
+    struct document *document = document_of_text("{\"frames\": [0, 7]}");
+    struct stat about;
+    for (int i = 0; i < 2; i++) {
+        const char *path = folder_path("walk.json");
+        assert_done(scene_save_for(document, path, &origins[i], &error));
+        const struct scene_origin read = scene_read_origin(path);
+        assert_string_equal(read.path, origins[i].path);
+        assert_true(read.content == origins[i].content);
+        assert_int_equal(stat(path, &about), 0);
+        assert_int_equal(about.st_mode & 0777, 0600);
+    }
+    assert_string_equal(scene_read_origin(folder_path("missing.json")).path, "");
+    document_destroy(document);
+}
+
+// --- knots on the clipboard
+
+TEST(knots_are_read_and_written)
+{
+#define TWO                                                                                                          \
+    "[\n  { 'frame': 1, 'value': 2 },\n  { 'frame': 3, 'value': -4, 'im': 1, 'slope': 5, 'stiffness': 6 }\n]\n"
+#define STILL "[\n  { 'frame': 1, 'value': 2 },\n  { 'frame': 3, 'still': true }\n]\n"
+    static const char *const rows[][2] = {
+        {TWO, TWO},
+        {"{'knots': " TWO "}", TWO},
+        {"# two\n\n1,2\n3,-4,5,6,1\n", TWO},
+        {"1;2\n3;-4,0;5;6;1\n", TWO},
+        {"stiffness\tim\tframe\tvalue\tslope\n\t\t1\t2\t\n6\t1\t3\t-4\t5\n", TWO},
+        {"1,2\n3,still", STILL},
+        {STILL, STILL},
+        {"[\n  { 'spline': 'x', 'frame': 1, 'value': 2 }\n]\n",
+         "[\n  { 'spline': 'x', 'frame': 1, 'value': 2 }\n]\n"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct knot_list list = {0};
+        assert_done(knots_parse("c", json(rows[i][0]), &list, &error));
+        char *text = knots_print(&list);
+        assert_string_equal(text, json(rows[i][1]));
+        knot_list_free(&list);
+        free(text);
+    }
+    char *none = knots_print(&(const struct knot_list){0});
+    assert_string_equal(none, "[]\n");
+    free(none);
 }

@@ -375,6 +375,105 @@ TEST(limits_hold_beside_poses_and_still_knots)
     }
 }
 
+// --- what is said of a solved spline
+
+#define STILL(frame) "{'frame': " #frame ", 'still': true}"
+#define AT(frame, value) "{'frame': " #frame ", 'value': " #value "}"
+#define POSE_AT(frame, value, im) "{'frame': " #frame ", 'value': " #value ", 'im': " #im "}"
+#define SLOPE_AT(frame, value) "{'frame': " #frame ", 'value': " #value ", 'slope': 1}"
+#define SETTLES_AT(frame, value) "{'frame': " #frame ", 'value': " #value ", 'settles': true}"
+
+/// A spline's members and knots, and all warnings: sentences, and where there is one the remedy, phase, limits and what is left of it.
+static const char *const warned[][3] = {
+    {"'frequency': 1, 'damping': 0.1", AT(0, 0) "," AT(10, 1) "," AT(17, 1) "," AT(30, 0),
+     "Frame 36: the curve swings to 1.81, far beyond the knots around it. (0.707, -0.00557, -1.2 to 1.2; 1.28 left)"},
+    {"'frequency': 1, 'damping': 0.1, 'equilibrium': 3", AT(0, 3) "," AT(11, 4) "," AT(13, 2) "," AT(40, 3),
+     "Frame 6: the curve swings to 7.32, far beyond the knots around it. (4, 0.00608, 1.8 to 4.2; 2.16 left)"},
+    {"'frequency': 1, 'damping': 0.1, 'equilibrium': 3, 'limits': [-9, 9]",
+     AT(0, 3) "," AT(11, 4) "," AT(13, 2) "," AT(40, 3), ""},
+    {"'frequency': 1, 'damping': 0.1", AT(0, 0) "," POSE_AT(11, 1, 3) "," AT(13, -1) "," AT(40, 0), ""},
+    {"'frequency': 1, 'damping': 0.1", AT(0, 0) "," POSE_AT(11, 1, 0.5) "," STILL(14) "," AT(16, -1) "," AT(40, 0),
+     "Frame 27: the curve swings to 2.36, far beyond the knots around it. (1, -0.337, -1.2 to 1.2; 1.18 left)"},
+    {"'frequency': 1, 'damping': 0.1", AT(0, 0) "," POSE_AT(12, 0.1, 5) "," AT(17, 0.2) "," AT(40, 0),
+     "Frame 5: the curve swings to 10.5, far beyond the knots around it. (5, -1.35, -0.23 to 0.23; 1.05 left)"},
+    {"'mode': 'real', 'frequency': 1, 'damping': 0.01", AT(0, 0) "," AT(11, 1) "," AT(13, -1) "," AT(40, 0),
+     "Frame 6: the curve swings to 3.51, far beyond the knots around it. (1, 0, -1.2 to 1.2; 1.76 left)"},
+    {"'frequency': 1, 'damping': 0.1, 'start': 'loop'", AT(3, 0) "," AT(12, 1) "," AT(14, -1),
+     "Frame 19: the curve swings to -3.54, far beyond the knots around it. (-1, -0.116, -1.2 to 1.2; 1.77 left)"},
+    {"'mode': 'real', 'frequency': 1, 'damping': 0.1",
+     POSE_AT(0, 1, 2) "," POSE_AT(10, 0.1, 1) "," SLOPE_AT(11, 0) "," AT(12, 0.1),
+     "Frame 0: the pose holds only its value, because only Wiggly splines have a phase. Frame 11: the slope has no "
+     "effect: both samples beside it have knots."},
+    {"'mode': 'cubic'", AT(0, 0) "," SETTLES_AT(40, 0.1) "," SETTLES_AT(44, 0.2),
+     "Frame 40: the knot does not settle, because a Cubic does not swing."},
+    {"'frequency': 5.9, 'bandwidth': 0", AT(10, 0.1), ""},
+    {"'frequency': 8, 'bandwidth': 0.5", AT(10, 0.1),
+     "12 Hz is too close to half the sample rate to keep its shape (the limit is 9.6 Hz). (2, 0, 0 to 0; 1.25 left)"},
+    {"'frequency': 2, 'bandwidth': 0.3, 'damping': 0.1", AT(0, 0.1) "," AT(10, 0.1) "," AT(40, 0.1) "," AT(48, 0.1),
+     "Frames 10 to 40: the swing drifts, because bandwidth 0.3 is too wide for 2.5 periods. (0.12, 0, 0 to 0; 0 "
+     "left)"},
+    {"'frequency': 2, 'bandwidth': 0.075, 'damping': 0.1", AT(0, 0.1) "," AT(48, 0.1), ""},
+    {"'frequency': 2, 'bandwidth': 0.076, 'damping': 0.1", AT(0, 0.1) "," AT(48, 0.1),
+     "Frames 0 to 48: the swing drifts, because bandwidth 0.076 is too wide for 4.0 periods. (0.075, 0, 0 to 0; 0 "
+     "left)"},
+    {"'frequency': 2, 'bandwidth': 0.3, 'damping': 0.1, 'start': 'loop'", AT(20, 0.1) "," AT(30, 0.1),
+     "Frames 30 to 20: the swing drifts, because bandwidth 0.3 is too wide for 3.2 periods. (0.094, 0, 0 to 0; 0 "
+     "left)"},
+    {"'frequency': 1, 'bandwidth': 0.05, 'damping': 0.1", POSE_AT(0, 0, 1) "," POSE_AT(36, 0, 1),
+     "Frames 0 to 36: the poses are 150 degrees out of step, so they break the swing between them. (0, 0, 0 to 0; "
+     "29.6 left)"},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1",
+     POSE_AT(0, 1, 0) "," POSE_AT(36, 0.1, 1) "," POSE_AT(40, 0, 0.2),
+     "Frame 18: the curve swings to -2.28, far beyond the knots around it. (-1, -0.244, -1.2 to 1.2; 1.13 left)"},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 1, 1) "," POSE_AT(27, 1, 0.9), ""},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 0, 1) "," POSE_AT(22, 0, 1), ""},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1, 'equilibrium': 1", POSE_AT(0, 1, 1) "," POSE_AT(36, 1, 1),
+     "Frames 0 to 36: the poses are 177 degrees out of step, so they break the swing between them. (0, 0, 0 to 0; "
+     "30.8 left)"},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1, 'start': 'loop'", POSE_AT(0, 0, 1) "," POSE_AT(12, 0, 1),
+     "Frames 12 to 0: the poses are 177 degrees out of step, so they break the swing between them. (0, 0, 0 to 0; "
+     "12.8 left)"},
+    {"'frequency': 1, 'damping': 0.1, 'wind_up': 0.05", AT(0, 1) "," AT(36, 1),
+     "The wind-up is 1.2 samples long at the highest frequency: below two, it is a jerk. (0.09, 0, 0 to 0; 0 left)"},
+    {"'frequency': 1, 'damping': 0.1, 'wind_up': 0.09", AT(0, 1) "," AT(36, 1), ""},
+    {"'frequency': 0, 'wind_up': 0.5", AT(0, 1) "," AT(36, 1), ""},
+    {"'frequency': 1, 'passive': 'filter', 'wind_up': 0.5", AT(0, 1) "," AT(36, 1),
+     "The wind-up has no effect: the paper's filter has none."},
+};
+
+static void say_all(const struct solved *s, char said[512])
+{
+    static struct warnings found;
+    found.count = 0;
+    said[0] = '\0';
+    warnings_add(s->world.document, &s->evaluation, 0, &found);
+    for (int i = 0; i < found.count; i++) {
+        const struct warning *w = &found.list[i];
+        char sentence[WARNING_SENTENCE], numbers[100] = "";
+        const bool is_left = w->kind == WARNING_FAR || w->kind == WARNING_RATE || w->kind == WARNING_FORCED;
+        const double left = is_left ? warning_left(w, s->world.document, &s->evaluation) : 0;
+        warning_say(w, sentence);
+        if (is_left || w->remedy > 0)
+            snprintf(numbers, sizeof numbers, " (%.3g, %.3g, %.3g to %.3g; %.3g left)", w->remedy, w->phase, w->low,
+                     w->high, left);
+        snprintf(said + strlen(said), 512 - strlen(said), "%s%s%s", i > 0 ? " " : "", sentence, numbers);
+    }
+}
+
+TEST(what_is_warned_of)
+{
+    for (size_t i = 0; i < sizeof warned / sizeof *warned; i++) {
+        struct solved s;
+        char text[1024], said[512];
+        snprintf(text, sizeof text, "{'frames': [0, 48], 'splines': [{'name': 'x', %s, 'knots': [%s]}]}",
+                 warned[i][0], warned[i][1]);
+        solved_open(&s, text);
+        say_all(&s, said);
+        if (strcmp(said, warned[i][2]) != 0) fail_msg("%s [%s]: %s", warned[i][0], warned[i][1], said);
+        solved_close(&s);
+    }
+}
+
 // --- slopes without effect: said of just those that change nothing when the scene is solved with another slope
 
 /// A spline with one slope, %g; `knot` is its index.
@@ -393,7 +492,6 @@ static const struct idle {
 #define SLOPE(frame) "{'frame': " #frame ", 'value': 0.3, 'slope': %g}"
 #define POSE(frame) "{'frame': " #frame ", 'value': 0.5, 'im': 0.2}"
 #define POSE_SLOPE(frame) "{'frame': " #frame ", 'value': 0.3, 'im': 0.4, 'slope': %g}"
-#define STILL(frame) "{'frame': " #frame ", 'still': true}"
     // between two neighbours
     {REAL, VALUE(9) "," SLOPE(10) "," VALUE(11), 1, true},
     {REAL, VALUE(9) "," SLOPE(10) "," STILL(11), 1, true},
