@@ -345,6 +345,24 @@ bool world_do_all(struct world *world, const char *edits)
     return world_do(world, edits);
 }
 
+void assert_edits(const char *scene, const char *edits, const char *says)
+{
+    for (const char *end; edits; edits = end ? end + 2 : NULL) {
+        struct world world;
+        char edit[256];
+        end = strchr(edits, '|');
+        snprintf(edit, sizeof edit, "%.*s", end ? (int)(end - edits - 1) : 255, edits);
+        world_open_scene(&world, scene);
+        const bool done = world_do_all(&world, edit), is_refusal = says && *says;
+        if (done == is_refusal || (is_refusal && strcmp(world.error.text, says) != 0))
+            fail_msg("%s: %s, not: %s", edit, done ? "it is done" : world.error.text, is_refusal ? says : "done");
+        if (is_refusal) assert_refused(&world, done, says);
+        if (!is_refusal) world_must(&world, done);
+        if (says && !*says && history_count(world.history) > 0) fail_msg("%s: it is a step", edit);
+        world_close(&world);
+    }
+}
+
 int world_undo_all(struct world *world)
 {
     int count = 0;

@@ -54,6 +54,10 @@ bool world_do(struct world *world, const char *edit);
 /// Edits with ';' between them, each in a step of its own. The last step stays open.
 bool world_do_all(struct world *world, const char *edits);
 
+/// Each of some edits with '|' between them, of a scene of its own: the last step is refused with this sentence; where that is NULL, it is done;
+/// where "", done and no step.
+void assert_edits(const char *scene, const char *edits, const char *says);
+
 /// Closes the step of an edit that succeeded or failed; the second requires success.
 bool world_step(struct world *world, bool done);
 void world_must(struct world *world, bool done);

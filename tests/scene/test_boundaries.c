@@ -192,43 +192,25 @@ TEST(knots_of_a_scene)
 /// The same limits, where an edit would go beyond.
 TEST(limits_of_edits)
 {
+    static const char timed[] =
+        "{'frames': [0, 48], 'splines': [{'name': 'sway', 'knots': [{'frame': 12, 'value': 1}]}]}";
     static const char rate[] = "frames per second must be above 0 and at most 100000";
     static const char subs[] = "substeps must be from 1 to 1024";
     static const char far[] = "frames must be from -1000000000 to 1000000000";
     static const char high[] = "at most 20000 samples where a spline has a low or high limit, got 20001";
-    static const struct {
-        const char *edit, *says; ///< NULL: taken
-    } rows[] = {
-        {"fps 99999", NULL},
-        {"fps 100000", NULL},
-        {"fps 100001", rate},
-        {"fps 0", rate},
-        {"fps nan", rate},
-        {"substeps 2", NULL},
-        {"substeps 1", NULL},
-        {"substeps 1023", NULL},
-        {"substeps 1024", NULL},
-        {"substeps 1025", subs},
-        {"substeps 0", subs},
-        {"range 0 99999 refuse", NULL},
+    static const char *const rows[][2] = {
+        {"fps 99999 | fps 100000 | substeps 2 | substeps 1 | substeps 1023 | substeps 1024 | range 0 99999 refuse",
+         NULL},
+        {"fps 100001 | fps 0 | fps nan", rate},
+        {"substeps 1025 | substeps 0", subs},
         {"range 0 100000 refuse", "at most 100000 samples a spline, got 100001"},
         {"range 0 1000000000 refuse", "at most 100000 samples a spline, got 1000000001"},
-        {"range 0 1000000001 refuse", far},
-        {"range -1000000001 0 refuse", far},
-        {"range 0 2147483647 refuse", far},
-        {"range 0 20000 refuse; set sway high 1e6", high},
-        {"range 0 19999 refuse; set sway high 1e6", NULL},
-        {"set sway high 1e6; range 0 20000 refuse", high},
-        {"set sway high 1e6; range 0 19999 refuse; copy sway; copy sway", NULL},
+        {"range 0 1000000001 refuse | range -1000000001 0 refuse | range 0 2147483647 refuse", far},
+        {"range 0 20000 refuse; set sway high 1e6 | set sway high 1e6; range 0 20000 refuse", high},
+        {"range 0 19999 refuse; set sway high 1e6 | set sway high 1e6; range 0 19999 refuse; copy sway; copy sway",
+         NULL},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct world world;
-        world_open(&world);
-        const bool done = world_do_all(&world, rows[i].edit);
-        if (done == !!rows[i].says) fail_msg("%s: %s", rows[i].edit, done ? "is done" : world.error.text);
-        if (rows[i].says) assert_refused(&world, done, rows[i].says);
-        world_close(&world);
-    }
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) assert_edits(json(timed), rows[i][0], rows[i][1]);
 }
 
 WORLD_TEST(rigs_of_an_edit, world_open(world))

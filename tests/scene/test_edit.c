@@ -210,40 +210,19 @@ TEST(edits_do_what_they_say_and_can_be_undone)
     }
 }
 
-/// Edits that change nothing are done, and are no step.
 TEST(edits_without_effect_are_no_steps)
 {
-    static const struct {
-        const char *scene, *edit;
-    } rows[] = {
-        {small, "move sway 0 0 0"},
-        {small, "set sway frequency 1"},
-        {small, "set loop start loop"},
-        {small, "track loop equilibrium sway"},
-        {small, "name sway sway"},
-        {small, "order pluck 1"},
-        {small, "color sway -1"},
-        {small, "fps 24 keep"},
-        {small, "substeps 1"},
-        {small, "range 0 48 trim"},
-        {small, "joints t 3"},
-        {small, "rename t t"},
-        {small, "angles t 1 gain 1 2 3"},
-        {small, "bend t 0 - - -"},
-        {small, "length t 1.6"},
-        {small, "set sway low -inf"},
-        {small, "settle sway 0"},
-        {pinned, "repin t 1 30 11 0 1 0.5"},
-        {soft, "drive 1 0 s 0.5 30"},
-        {jointed, "follow ear equilibrium dog.glb head turn 1"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct world world;
-        world_open_scene(&world, json(rows[i].scene));
-        if (!world_step(&world, world_do(&world, rows[i].edit))) fail_msg("%s: %s", rows[i].edit, world.error.text);
-        if (history_count(world.history) > 0) fail_msg("%s: is a step", rows[i].edit);
-        world_close(&world);
-    }
+    assert_edits(json(small),
+                 "move sway 0 0 0 | set sway frequency 1 | set loop start loop | track loop equilibrium sway | "
+                 "name sway sway | order pluck 1 | color sway -1 | fps 24 keep | substeps 1 | range 0 48 trim",
+                 "");
+    assert_edits(json(small),
+                 "joints t 3 | rename t t | angles t 1 gain 1 2 3 | bend t 0 - - - | length t 1.6 | "
+                 "set sway low -inf | settle sway 0",
+                 "");
+    assert_edits(json(pinned), "repin t 1 30 11 0 1 0.5", "");
+    assert_edits(json(soft), "drive 1 0 s 0.5 30", "");
+    assert_edits(json(jointed), "follow ear equilibrium dog.glb head turn 1", "");
 }
 
 // --- what is refused
@@ -252,7 +231,7 @@ TEST(edits_without_effect_are_no_steps)
 #define SWING PINS "splines with a swing of their own, got "
 #define SOFT "../models/a.glb: "
 
-/// Edits of a scene, of which the last one is refused with a sentence.
+/// Edits of a scene, or several with | between them, and the sentence with which the last one is refused.
 static const struct refusal {
     const char *scene, *edits, *says;
 } refusals[] = {
@@ -266,69 +245,55 @@ static const struct refusal {
     {small, "knot sway 1 stiffness 0", "sway: a knot: the stiffness must be above 0 and finite"},
     {small, "set sway low -1; move sway 1 12 -1.5", "sway: a knot at -1.5 would be below the low limit, -1"},
     {small, "set sway high 1; insert sway 5 2", "sway: a knot at 2 would be above the high limit, 1"},
-    {small, "remove sway 9", "sway: this knot no longer exists"},
-    {small, "move sway 9 1 1", "sway: this knot no longer exists"},
-    {small, "insert 3 5 0", "there is no such spline"},
-    {small, "insert -1 5 0", "there is no such spline"},
-    {small, "remove 3 0", "there is no such spline"},
-
+    {small, "remove sway 9 | move sway 9 1 1", "sway: this knot no longer exists"},
+    {small, "insert 3 5 0 | insert -1 5 0 | remove 3 0 | set 3 calm 1 | copy 3 | drop 3", "there is no such spline"},
+    {small, "settle 3 1", "there is no such spline"},
     {small, "set sway frequency -1", "sway: frequency must be at least 0"},
     {small, "set sway damping 1.5", "sway: damping must be at most 1"},
     {small, "set sway equilibrium nan", "sway: equilibrium must be finite"},
     {small, "set sway seed 1.5", "sway: seed must be a whole number"},
-    {small, "set sway mode 3", "there is no such mode"},
-    {small, "set sway mode -1", "there is no such mode"},
+    {small, "set sway mode 3 | set sway mode -1", "there is no such mode"},
     {small, "set sway 13 1", "there is no such parameter"},
-    {small, "set 3 calm 1", "there is no such spline"},
     {small, "track sway calm loop", "sway: calm must be a number"},
     {small, "track sway damping 3", "sway: there is no spline to follow"},
     {small, "track sway damping sway", "sway cannot follow sway, which already follows it"},
     {small, "track sway damping loop", "sway cannot follow loop, which already follows it"},
     {small, "track pluck frequency loop; track sway bandwidth pluck",
      "sway cannot follow pluck, which already follows it"},
-    {small, "set sway low nan", "sway: a limit must be finite"},
-    {small, "set sway low inf", "sway: a limit must be finite"},
+    {small, "set sway low nan | set sway low inf", "sway: a limit must be finite"},
     {small, "set sway low -0.5", "sway: the knot at frame 30 is below that"},
     {small, "set sway high 0.5", "sway: the knot at frame 12 is above that"},
-    {small, "set pluck low 1; set pluck high 1", "pluck: the low limit must be below the high one"},
-    {small, "set pluck high 1; set pluck low 2", "pluck: the low limit must be below the high one"},
-
+    {small, "set pluck low 1; set pluck high 1 | set pluck high 1; set pluck low 2",
+     "pluck: the low limit must be below the high one"},
     {small, "range 1 48 refuse", "sway: the knot at frame 0 would fall outside the range"},
     {small, "range 0 29 refuse", "sway: the knot at frame 30 would fall outside the range"},
+    {small, "set loop start free; set sway start loop; range -10 30 refuse",
+     "sway: the knot at frame 30 would fall outside the range"},
     {small, "range 5 4 refuse", "the last frame must not be before the first"},
     {small, "range 0 1000000000 refuse", "at most 100000 samples a spline, got 1000000001"},
     {small, "range -2147483648 2147483647 refuse", "frames must be from -1000000000 to 1000000000"},
     {small, "range -10 30 refuse; set sway start loop",
      "sway: delete the knot at the last frame first; in a loop that frame repeats the first"},
-    {small, "set loop start free; set sway start loop; range -10 30 refuse",
-     "sway: the knot at frame 30 would fall outside the range"},
     {small, "range 2 2 trim", "loop: a loop needs more than one frame"},
+
     {"{'frames': [3, 3], 'splines': [{'name': 'x'}]}", "set x start loop", "x: a loop needs more than one frame"},
+
     {small, "insert sway 28 4; range 2 4 move", "sway: 4 knots do not fit into 3 frames"},
     {small, "insert loop 9 1; range 0 2 move; range 0 1 move", "sway: 3 knots do not fit into 2 frames"},
-    {small, "fps 0", "frames per second must be above 0 and at most 100000"},
-    {small, "fps nan keep", "frames per second must be above 0 and at most 100000"},
+    {small, "fps 0 | fps nan keep", "frames per second must be above 0 and at most 100000"},
     {small, "fps 100000 keep", "at most 100000 samples a spline, got 200001"},
     {small, "fps 30 keep; insert sway 16 0; fps 10 keep", "sway: two knots would land on frame 5.333333333"},
     {small, "substeps 4; insert sway 12.25 0; substeps 1", "sway: two knots would land on frame 12.25"},
-
     {small, "add -1 sway 0 0", "a spline called sway already exists"},
-    {small, "add -1 ''", "a spline needs a name"},
+    {small, "add -1 '' | name sway ''", "a spline needs a name"},
     {small, "add -1 - 49 0", "frame 49 is outside 0 to 48"},
     {small, "add -1 - -1 0", "frame -1 is outside 0 to 48"},
     {small, "add -1 - 0 nan", "a knot's numbers must be finite"},
-    {small, "copy 3", "there is no such spline"},
     {small, "drop sway", "sway: still used in 2 places; remove those first"},
     {small, "drop loop", "loop: still used in 1 place; remove those first"},
-    {small, "drop 3", "there is no such spline"},
-    {small, "settle 3 1", "there is no such spline"},
-    {small, "order sway 3", "there is no such place in the list"},
-    {small, "order sway -1", "there is no such place in the list"},
-    {small, "name sway ''", "a spline needs a name"},
+    {small, "order sway 3 | order sway -1", "there is no such place in the list"},
     {small, "name sway loop", "a spline called loop already exists"},
-    {small, "color pluck 0x1000000", "there is no such colour"},
-    {small, "color pluck -2", "there is no such colour"},
-
+    {small, "color pluck 0x1000000 | color pluck -2", "there is no such colour"},
     {small, "place t 0 nan", "t: the position must be finite"},
     {small, "ride t 1 3", "t: there is no spline to follow"},
     {small, "length t 0", "t: the length must be above 0 and finite"},
@@ -338,27 +303,20 @@ static const struct refusal {
     {small, "angles t 1 lag 0:1", "t: a ramp has from 2 to 32 points"},
     {small, "angles t 1 lag 0:1 1.5:2", "t: the places of a ramp are from 0 to 1"},
     {small, "angles t 1 lag 0:1 0:2", "t: the places of a ramp must ascend"},
-    {small, "angles t 2 lag 1", "there is no such channel"},
-    {small, "angles 1 2 lag 1", "there is no such rig"},
-    {small, "bend t 1 9 - -", "t: there is no such spline"},
-    {small, "bend t 2 - - total", "there is no such channel"},
-    {small, "unchannel t 2", "there is no such channel"},
-    {small, "unchannel t -1", "there is no such channel"},
-    {small, "channel t -1 side total", "t: there is no such spline"},
-    {small, "channel 1 0 side total", "there is no such rig"},
+    {small, "angles t 2 lag 1 | bend t 2 - - total | unchannel t 2 | unchannel t -1", "there is no such channel"},
+    {small, "angles 1 2 lag 1 | channel 1 0 side total | unrig 1", "there is no such rig"},
+    {small, "bend t 1 9 - - | channel t -1 side total", "t: there is no such spline"},
     {small, "tail t 0; rename 1 t", "there is a rig called t already"},
     {small, "rename t ''", "a tail needs a name"},
-    {small, "unrig 1", "there is no such rig"},
-    {small, "joints t 0", "t: joints must be from 1 to 256"},
-    {small, "joints t 257", "t: joints must be from 1 to 256"},
+    {small, "joints t 0 | joints t 257", "t: joints must be from 1 to 256"},
+
     {soft, "joints 1 5", "there is no such tail"},
 
     {pinned, "pin t 30 11 0 0 0", PINS "one pin per point and sample, got another at frame 30"},
     {pinned, "repin t 1 49 11 0 0 0", PINS "a frame from 0 to 48, got 49"},
     {pinned, "repin t 1 30 11 0 nan 0", "t: a pin: the to must be finite"},
     {pinned, "pin t 2 12 0 0 0", PINS "a whole number from 0 to 11, got 12"},
-    {pinned, "unpin t 2", "t: this pin no longer exists"},
-    {pinned, "repin t 2 1 1 0 0 0", "t: this pin no longer exists"},
+    {pinned, "unpin t 2 | repin t 2 1 1 0 0 0", "t: this pin no longer exists"},
     {pinned, "set side mode cubic", SWING "\"side\", which is cubic"},
     {pinned, "set up frequency 0", SWING "\"up\", whose frequency is 0"},
     {pinned, "set up calm 0", SWING "\"up\", whose calm is 0"},
@@ -370,16 +328,13 @@ static const struct refusal {
     {pinned, "pin t 48 1 0 0 0; set up start loop",
      PINS "a frame before 48, because the last frame of a loop repeats the first, got 48"},
 
-    {soft, "drive 0 0 s 1 0", "there is no such character"},
-    {soft, "drive 1 2 s 1 0", "this character has no such coordinate"},
-    {soft, "drive 1 -2 s 1 0", "this character has no such coordinate"},
+    {soft, "drive 0 0 s 1 0 | undrive 0 0", "there is no such character"},
+    {soft, "drive 1 2 s 1 0 | drive 1 -2 s 1 0 | undrive 1 -1 | undrive 1 2",
+     "this character has no such coordinate"},
     {soft, "drive 1 0 2 1 0", SOFT "there is no such spline"},
     {soft, "drive 1 0 s inf 0", SOFT "the amplitude must be finite"},
     {soft, "drive 1 0 s 1 nan", SOFT "the lag must be finite"},
     {soft, "drive 1 -1 s 1 0 ''", SOFT "\"name\" must not be empty"},
-    {soft, "undrive 1 -1", "this character has no such coordinate"},
-    {soft, "undrive 1 2", "this character has no such coordinate"},
-    {soft, "undrive 0 0", "there is no such character"},
     {soft, "drop s", "s: still used in 1 place; remove those first"},
     {soft, "pin 1 49 0 0 0 0", SOFT "pins: expected a frame from 0 to 48, got 49"},
 
@@ -398,15 +353,8 @@ static const struct refusal {
 
 TEST(impossible_edits_are_refused_in_a_sentence)
 {
-    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
-        const struct refusal *r = &refusals[i];
-        struct world world;
-        world_open_scene(&world, json(r->scene));
-        if (world_do_all(&world, r->edits)) fail_msg("%s: is done", r->edits);
-        if (strcmp(world.error.text, r->says) != 0) fail_msg("%s: %s, not %s", r->edits, world.error.text, r->says);
-        assert_refused(&world, false, r->says);
-        world_close(&world);
-    }
+    for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
+        assert_edits(json(refusals[i].scene), refusals[i].edits, refusals[i].says);
 }
 
 /// Angles as edits say them, and what a joint of how many has: a ramp is linear between its points, and constant outside.

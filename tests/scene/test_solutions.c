@@ -97,19 +97,6 @@ SOLVED_TEST(only_followers_are_solved, chain)
     }
 }
 
-/// What is solved bit by bit, as edits come, is what is solved at once: a curve is a function of the document.
-SOLVED_TEST(partial_solves_agree, chain)
-{
-    struct evaluation whole = {0};
-    solve_after(s, "move b 1 48 0.25");
-    evaluation_update(&whole, s->world.document, false);
-    for (int i = 0; i < 4; i++) {
-        assert_memory_equal(s->evaluation.curves[i].total, whole.curves[i].total, 49 * sizeof(double));
-        assert_memory_equal(s->evaluation.curves[i].im, whole.curves[i].im, 49 * sizeof(double));
-    }
-    evaluation_free(&whole);
-}
-
 SOLVED_TEST(it_fits_another_document, "{'frames': [0, 5], 'splines': [{'name': 'x'}]}")
 {
     struct document *large = document_of_text(json(chain));
