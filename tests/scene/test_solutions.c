@@ -412,6 +412,10 @@ static const char *const warned[][3] = {
     {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1",
      POSE_AT(0, 1, 0) "," POSE_AT(36, 0.1, 1) "," POSE_AT(40, 0, 0.2),
      "Frame 18: the curve swings to -2.28, far beyond the knots around it. (-1, -0.244, -1.2 to 1.2; 1.13 left)"},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 0, 0.1) "," POSE_AT(36, 0, 0.1),
+     "Frames 0 to 36: the poses are 177 degrees out of step, so they break the swing between them. (0, 0, 0 to 0; "
+     "30.8 left)"},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 0, 10) "," POSE_AT(36, 0, 3), ""},
     {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 1, 1) "," POSE_AT(27, 1, 0.9), ""},
     {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 0, 1) "," POSE_AT(22, 0, 1), ""},
     {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1, 'equilibrium': 1", POSE_AT(0, 1, 1) "," POSE_AT(36, 1, 1),
