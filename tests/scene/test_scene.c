@@ -145,7 +145,9 @@ static const struct kept {
     {SPLINES "[{'type': 'character', 'model': 'a.glb', 'coordinates': [%s]}]}", "'coordinates': [\n        %s\n",
      "{ 'name': 'up', 'spline': 's', 'amplitude': 0.5, 'lag': 30, 'tint': 'red' }"},
     {SPLINES "[{'type': 'character', 'model': 'a.glb', 'coordinates': [{'name': 'up', 'spline': 's'}]}]%s}",
-     "{ 'name': 'up', 'spline': 's', 'amplitude': 1, 'lag': 0 }%s", ""},
+     "      'type': 'character',\n      'model': 'a.glb',\n      'position': [0, 0, 0],\n      'coordinates': [\n"
+     "        { 'name': 'up', 'spline': 's', 'amplitude': 1, 'lag': 0 }\n      ]\n    }\n%s",
+     ""},
     // equilibria that follow a joint
     {"{'frames': [0, 9], 'splines': [{'name': 's', 'equilibrium': %s}], 'rigs': [{'type': 'model', 'name': 'dog', "
      "'model': 'd.glb'}, {'type': 'chain', 'name': 'tail', 'model': 'dog', 'from': 'a', 'to': 'b'}]}",
