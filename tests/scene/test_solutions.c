@@ -364,71 +364,74 @@ TEST(limits_hold_beside_poses_and_still_knots)
 
 // --- what is said of a solved spline
 
-#define STILL(frame) "{'frame': " #frame ", 'still': true}"
-#define AT(frame, value) "{'frame': " #frame ", 'value': " #value "}"
-#define POSE_AT(frame, value, im) "{'frame': " #frame ", 'value': " #value ", 'im': " #im "}"
-#define SLOPE_AT(frame, value) "{'frame': " #frame ", 'value': " #value ", 'slope': 1}"
-#define SETTLES_AT(frame, value) "{'frame': " #frame ", 'value': " #value ", 'settles': true}"
+/// Knots as JSON, of words such as "v10=1 p12=1~3 s14 x20": values, poses, values and poses with a slope (s, q), knots that settle (t) and
+/// still ones (x), each at its frame, with value and im.
+static void knots_of(const char *words, double slope, char json_text[512])
+{
+    char list[256], *rest = list, *word, *to = json_text;
+    snprintf(list, sizeof list, "%s", words);
+    while ((word = strsep(&rest, " "))) {
+        const char kind = *word, *value = strchr(word, '='), *im = strchr(word, '~');
+        const double standard = kind == 's' || kind == 'q' ? 0.3 : 0.5;
+        if (!kind) continue;
+        to += sprintf(to, "%s{'frame': %d", to > json_text ? ", " : "", atoi(word + 1));
+        if (kind == 'x') to += sprintf(to, ", 'still': true");
+        if (kind != 'x') to += sprintf(to, ", 'value': %g", value ? atof(value + 1) : standard);
+        if (kind == 'p' || kind == 'q') to += sprintf(to, ", 'im': %g", im ? atof(im + 1) : kind == 'p' ? 0.2 : 0.4);
+        if (kind == 's' || kind == 'q') to += sprintf(to, ", 'slope': %g", slope);
+        to += sprintf(to, kind == 't' ? ", 'settles': true}" : "}");
+    }
+}
 
-/// A spline's members and knots, and all warnings: sentences, and where there is one the remedy, phase, limits and what is left of it.
+/// A spline's members, its knots (knots_of()) and all warnings: sentences, the remedy and what is left, and of a far swing phase and limits.
 static const char *const warned[][3] = {
-    {"'frequency': 1, 'damping': 0.1", AT(0, 0) "," AT(10, 1) "," AT(17, 1) "," AT(30, 0),
+    {"'frequency': 1, 'damping': 0.1", "v0=0 v10=1 v17=1 v30=0",
      "Frame 36: the curve swings to 1.81, far beyond the knots around it. (0.707, -0.00557, -1.2 to 1.2; 1.28 left)"},
-    {"'frequency': 1, 'damping': 0.1, 'equilibrium': 3", AT(0, 3) "," AT(11, 4) "," AT(13, 2) "," AT(40, 3),
+    {"'frequency': 1, 'damping': 0.1, 'equilibrium': 3", "v0=3 v11=4 v13=2 v40=3",
      "Frame 6: the curve swings to 7.32, far beyond the knots around it. (4, 0.00608, 1.8 to 4.2; 2.16 left)"},
-    {"'frequency': 1, 'damping': 0.1, 'equilibrium': 3, 'limits': [-9, 9]",
-     AT(0, 3) "," AT(11, 4) "," AT(13, 2) "," AT(40, 3), ""},
-    {"'frequency': 1, 'damping': 0.1", AT(0, 0) "," POSE_AT(11, 1, 3) "," AT(13, -1) "," AT(40, 0), ""},
-    {"'frequency': 1, 'damping': 0.1", AT(0, 0) "," POSE_AT(11, 1, 0.5) "," STILL(14) "," AT(16, -1) "," AT(40, 0),
+    {"'frequency': 1, 'damping': 0.1, 'equilibrium': 3, 'limits': [-9, 9]", "v0=3 v11=4 v13=2 v40=3", ""},
+    {"'frequency': 1, 'damping': 0.1", "v0=0 p11=1~3 v13=-1 v40=0", ""},
+    {"'frequency': 1, 'damping': 0.1", "v0=0 p11=1~0.5 x14 v16=-1 v40=0",
      "Frame 27: the curve swings to 2.36, far beyond the knots around it. (1, -0.337, -1.2 to 1.2; 1.18 left)"},
-    {"'frequency': 1, 'damping': 0.1", AT(0, 0) "," POSE_AT(12, 0.1, 5) "," AT(17, 0.2) "," AT(40, 0),
+    {"'frequency': 1, 'damping': 0.1", "v0=0 p12=0.1~5 v17=0.2 v40=0",
      "Frame 5: the curve swings to 10.5, far beyond the knots around it. (5, -1.35, -0.23 to 0.23; 1.05 left)"},
-    {"'mode': 'real', 'frequency': 1, 'damping': 0.01", AT(0, 0) "," AT(11, 1) "," AT(13, -1) "," AT(40, 0),
+    {"'mode': 'real', 'frequency': 1, 'damping': 0.01", "v0=0 v11=1 v13=-1 v40=0",
      "Frame 6: the curve swings to 3.51, far beyond the knots around it. (1, 0, -1.2 to 1.2; 1.76 left)"},
-    {"'frequency': 1, 'damping': 0.1, 'start': 'loop'", AT(3, 0) "," AT(12, 1) "," AT(14, -1),
+    {"'frequency': 1, 'damping': 0.1, 'start': 'loop'", "v3=0 v12=1 v14=-1",
      "Frame 19: the curve swings to -3.54, far beyond the knots around it. (-1, -0.116, -1.2 to 1.2; 1.77 left)"},
-    {"'mode': 'real', 'frequency': 1, 'damping': 0.1",
-     POSE_AT(0, 1, 2) "," POSE_AT(10, 0.1, 1) "," SLOPE_AT(11, 0) "," AT(12, 0.1),
+    {"'mode': 'real', 'frequency': 1, 'damping': 0.1", "p0=1~2 p10=0.1~1 s11=0 v12=0.1",
      "Frame 0: the pose holds only its value, because only Wiggly splines have a phase. Frame 11: the slope has no "
      "effect: both samples beside it have knots."},
-    {"'mode': 'cubic'", AT(0, 0) "," SETTLES_AT(40, 0.1) "," SETTLES_AT(44, 0.2),
+    {"'mode': 'cubic'", "v0=0 t40=0.1 t44=0.2",
      "Frame 40: the knot does not settle, because a Cubic does not swing."},
-    {"'frequency': 5.9, 'bandwidth': 0", AT(10, 0.1), ""},
-    {"'frequency': 8, 'bandwidth': 0.5", AT(10, 0.1),
-     "12 Hz is too close to half the sample rate to keep its shape (the limit is 9.6 Hz). (2, 0, 0 to 0; 1.25 left)"},
-    {"'frequency': 2, 'bandwidth': 0.3, 'damping': 0.1", AT(0, 0.1) "," AT(10, 0.1) "," AT(40, 0.1) "," AT(48, 0.1),
-     "Frames 10 to 40: the swing drifts, because bandwidth 0.3 is too wide for 2.5 periods. (0.12, 0, 0 to 0; 0 "
-     "left)"},
-    {"'frequency': 2, 'bandwidth': 0.075, 'damping': 0.1", AT(0, 0.1) "," AT(48, 0.1), ""},
-    {"'frequency': 2, 'bandwidth': 0.076, 'damping': 0.1", AT(0, 0.1) "," AT(48, 0.1),
-     "Frames 0 to 48: the swing drifts, because bandwidth 0.076 is too wide for 4.0 periods. (0.075, 0, 0 to 0; 0 "
-     "left)"},
-    {"'frequency': 2, 'bandwidth': 0.3, 'damping': 0.1, 'start': 'loop'", AT(20, 0.1) "," AT(30, 0.1),
-     "Frames 30 to 20: the swing drifts, because bandwidth 0.3 is too wide for 3.2 periods. (0.094, 0, 0 to 0; 0 "
-     "left)"},
-    {"'frequency': 1, 'bandwidth': 0.05, 'damping': 0.1", POSE_AT(0, 0, 1) "," POSE_AT(36, 0, 1),
-     "Frames 0 to 36: the poses are 150 degrees out of step, so they break the swing between them. (0, 0, 0 to 0; "
-     "29.6 left)"},
-    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1",
-     POSE_AT(0, 1, 0) "," POSE_AT(36, 0.1, 1) "," POSE_AT(40, 0, 0.2),
+    {"'frequency': 5.9, 'bandwidth': 0", "v10=0.1", ""},
+    {"'frequency': 8, 'bandwidth': 0.5", "v10=0.1",
+     "12 Hz is too close to half the sample rate to keep its shape (the limit is 9.6 Hz). (2; 1.25 left)"},
+    {"'frequency': 2, 'bandwidth': 0.3, 'damping': 0.1", "v0=0.1 v10=0.1 v40=0.1 v48=0.1",
+     "Frames 10 to 40: the swing drifts, because bandwidth 0.3 is too wide for 2.5 periods. (0.12; 0 left)"},
+    {"'frequency': 2, 'bandwidth': 0.075, 'damping': 0.1", "v0=0.1 v48=0.1", ""},
+    {"'frequency': 2, 'bandwidth': 0.076, 'damping': 0.1", "v0=0.1 v48=0.1",
+     "Frames 0 to 48: the swing drifts, because bandwidth 0.076 is too wide for 4.0 periods. (0.075; 0 left)"},
+    {"'frequency': 2, 'bandwidth': 0.3, 'damping': 0.1, 'start': 'loop'", "v20=0.1 v30=0.1",
+     "Frames 30 to 20: the swing drifts, because bandwidth 0.3 is too wide for 3.2 periods. (0.094; 0 left)"},
+    {"'frequency': 1, 'bandwidth': 0.05, 'damping': 0.1", "p0=0~1 p36=0~1",
+     "Frames 0 to 36: the poses are 150 degrees out of step, so they break the swing between them. (0; 29.6 left)"},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", "p0=1~0 p36=0.1~1 p40=0~0.2",
      "Frame 18: the curve swings to -2.28, far beyond the knots around it. (-1, -0.244, -1.2 to 1.2; 1.13 left)"},
-    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 0, 0.1) "," POSE_AT(36, 0, 0.1),
-     "Frames 0 to 36: the poses are 177 degrees out of step, so they break the swing between them. (0, 0, 0 to 0; "
-     "30.8 left)"},
-    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 0, 10) "," POSE_AT(36, 0, 3), ""},
-    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 1, 1) "," POSE_AT(27, 1, 0.9), ""},
-    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", POSE_AT(0, 0, 1) "," POSE_AT(22, 0, 1), ""},
-    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1, 'equilibrium': 1", POSE_AT(0, 1, 1) "," POSE_AT(36, 1, 1),
-     "Frames 0 to 36: the poses are 177 degrees out of step, so they break the swing between them. (0, 0, 0 to 0; "
-     "30.8 left)"},
-    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1, 'start': 'loop'", POSE_AT(0, 0, 1) "," POSE_AT(12, 0, 1),
-     "Frames 12 to 0: the poses are 177 degrees out of step, so they break the swing between them. (0, 0, 0 to 0; "
-     "12.8 left)"},
-    {"'frequency': 1, 'damping': 0.1, 'wind_up': 0.05", AT(0, 1) "," AT(36, 1),
-     "The wind-up is 1.2 samples long at the highest frequency: below two, it is a jerk. (0.09, 0, 0 to 0; 0 left)"},
-    {"'frequency': 1, 'damping': 0.1, 'wind_up': 0.09", AT(0, 1) "," AT(36, 1), ""},
-    {"'frequency': 0, 'wind_up': 0.5", AT(0, 1) "," AT(36, 1), ""},
-    {"'frequency': 1, 'passive': 'filter', 'wind_up': 0.5", AT(0, 1) "," AT(36, 1),
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", "p0=0~0.1 p36=0~0.1",
+     "Frames 0 to 36: the poses are 177 degrees out of step, so they break the swing between them. (0; 30.8 left)"},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", "p0=0~10 p36=0~3", ""},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", "p0=1~1 p27=1~0.9", ""},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1", "p0=0~1 p22=0~1", ""},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1, 'equilibrium': 1", "p0=1~1 p36=1~1",
+     "Frames 0 to 36: the poses are 177 degrees out of step, so they break the swing between them. (0; 30.8 left)"},
+    {"'frequency': 1, 'bandwidth': 0, 'damping': 0.1, 'start': 'loop'", "p0=0~1 p12=0~1",
+     "Frames 12 to 0: the poses are 177 degrees out of step, so they break the swing between them. (0; 12.8 left)"},
+    {"'frequency': 1, 'damping': 0.1, 'wind_up': 0.05", "v0=1 v36=1",
+     "The wind-up is 1.2 samples long at the highest frequency: below two, it is a jerk. (0.09; 0 left)"},
+    {"'frequency': 1, 'damping': 0.1, 'wind_up': 0.09", "v0=1 v36=1", ""},
+    {"'frequency': 0, 'wind_up': 0.5", "v0=1 v36=1", ""},
+    {"'frequency': 1, 'passive': 'filter', 'wind_up': 0.5", "v0=1 v36=1",
      "The wind-up has no effect: the paper's filter has none."},
 };
 
@@ -444,7 +447,8 @@ static void say_all(const struct solved *s, char said[512])
         const bool is_left = w->kind == WARNING_FAR || w->kind == WARNING_RATE || w->kind == WARNING_FORCED;
         const double left = is_left ? warning_left(w, s->world.document, &s->evaluation) : 0;
         warning_say(w, sentence);
-        if (is_left || w->remedy > 0)
+        if (is_left || w->remedy > 0) snprintf(numbers, sizeof numbers, " (%.3g; %.3g left)", w->remedy, left);
+        if (w->kind == WARNING_FAR)
             snprintf(numbers, sizeof numbers, " (%.3g, %.3g, %.3g to %.3g; %.3g left)", w->remedy, w->phase, w->low,
                      w->high, left);
         snprintf(said + strlen(said), 512 - strlen(said), "%s%s%s", i > 0 ? " " : "", sentence, numbers);
@@ -455,9 +459,10 @@ TEST(what_is_warned_of)
 {
     for (size_t i = 0; i < sizeof warned / sizeof *warned; i++) {
         struct solved s;
-        char text[1024], said[512];
+        char text[1024], knots[512], said[512];
+        knots_of(warned[i][1], 1, knots);
         snprintf(text, sizeof text, "{'frames': [0, 48], 'splines': [{'name': 'x', %s, 'knots': [%s]}]}",
-                 warned[i][0], warned[i][1]);
+                 warned[i][0], knots);
         solved_open(&s, text);
         say_all(&s, said);
         if (strcmp(said, warned[i][2]) != 0) fail_msg("%s [%s]: %s", warned[i][0], warned[i][1], said);
@@ -467,104 +472,62 @@ TEST(what_is_warned_of)
 
 // --- slopes without effect: said of just those that change nothing when the scene is solved with another slope
 
-/// A spline with one slope, %g; `knot` is its index.
-static const struct idle {
-    const char *spline, *knots;
-    int knot;
-    bool is_idle;
-} idles[] = {
+/// A spline, knots with a slope that is idle (knots_of(), with | between them), and such where it would change the curve.
+static const char *const idles[][3] = {
 #define COMPLEX "'frequency': 1, 'damping': 0.1"
 #define REAL "'mode': 'real', " COMPLEX
-#define CUBIC "'mode': 'cubic'"
 #define FILTER ", 'passive': 'filter'"
 #define ROUND ", 'start': 'loop'"
-#define REST ", 'start': 'rest'"
-#define VALUE(frame) "{'frame': " #frame ", 'value': 0.5}"
-#define SLOPE(frame) "{'frame': " #frame ", 'value': 0.3, 'slope': %g}"
-#define POSE(frame) "{'frame': " #frame ", 'value': 0.5, 'im': 0.2}"
-#define POSE_SLOPE(frame) "{'frame': " #frame ", 'value': 0.3, 'im': 0.4, 'slope': %g}"
-    // between two neighbours
-    {REAL, VALUE(9) "," SLOPE(10) "," VALUE(11), 1, true},
-    {REAL, VALUE(9) "," SLOPE(10) "," STILL(11), 1, true},
-    {REAL, VALUE(8) "," SLOPE(10) "," VALUE(11), 1, false},
-    {CUBIC, VALUE(9) "," SLOPE(10) "," VALUE(11), 1, true},
-    {CUBIC, VALUE(9) "," SLOPE(10) "," VALUE(12), 1, false},
-    {COMPLEX, VALUE(9) "," SLOPE(10) "," VALUE(11), 1, false},
-    {COMPLEX, POSE(9) "," SLOPE(10) "," POSE(11), 1, false},
-    {COMPLEX, POSE(9) "," POSE_SLOPE(10) "," POSE(11), 1, true},
-    {COMPLEX, POSE(9) "," POSE_SLOPE(10) "," VALUE(11) "," VALUE(20), 1, false},
-    {COMPLEX, STILL(9) "," POSE_SLOPE(10) "," POSE(11), 1, true},
-    {COMPLEX, POSE(9) "," POSE_SLOPE(10) "," STILL(11), 1, true},
-    // at the ends, where one side is there
-    {REAL, SLOPE(10) "," VALUE(11) "," VALUE(20), 0, true},
-    {REAL, SLOPE(10) "," VALUE(12), 0, false},
-    {REAL REST, SLOPE(10) "," VALUE(11), 0, false},
-    {REAL, VALUE(3) "," VALUE(29) "," SLOPE(30), 2, true},
-    {CUBIC, VALUE(3) "," VALUE(28) "," SLOPE(30), 2, false},
-    {CUBIC, VALUE(3) "," VALUE(9) "," SLOPE(10), 2, false},
-    {COMPLEX, POSE_SLOPE(10) "," POSE(11) "," VALUE(20), 0, true},
-    {COMPLEX, POSE_SLOPE(10) "," POSE(12), 0, false},
-    // the last one of complex mode, with and without a motion of its own after it
-    {COMPLEX, VALUE(3) "," POSE_SLOPE(10), 1, true},
-    {COMPLEX, POSE_SLOPE(10), 0, true},
-    {COMPLEX, VALUE(3) "," POSE_SLOPE(30), 1, true},
-    {COMPLEX, VALUE(3) "," SLOPE(10), 1, false},
-    {"'frequency': 1, 'damping': 0.97", VALUE(3) "," POSE_SLOPE(10), 1, false},
-    {"'frequency': 0", VALUE(3) "," POSE_SLOPE(10), 1, false},
-    {REAL, VALUE(3) "," SLOPE(10), 1, false},
-    // loops, around the seam
-    {REAL ROUND, VALUE(1) "," VALUE(12) "," SLOPE(29), 2, false},
-    {REAL ROUND, VALUE(0) "," VALUE(28) "," SLOPE(29), 2, true},
-    {REAL ROUND, SLOPE(0) "," VALUE(1) "," VALUE(29), 0, true},
-    {COMPLEX ROUND, POSE_SLOPE(0) "," POSE(1) "," POSE(29), 0, true},
-    {COMPLEX ROUND, POSE_SLOPE(0) "," POSE(1) "," VALUE(29), 0, false},
-    {COMPLEX ROUND, VALUE(3) "," POSE_SLOPE(10), 1, false},
-    // the filter sees the next sample alone
-    {REAL FILTER, SLOPE(10) "," VALUE(11) "," VALUE(20), 0, true},
-    {COMPLEX FILTER, VALUE(3) "," SLOPE(10) "," VALUE(11), 1, true},
-    {COMPLEX FILTER, POSE(9) "," POSE_SLOPE(10), 1, false},
-    {REAL FILTER, VALUE(3) "," VALUE(29) "," SLOPE(30), 2, true},
-    {REAL FILTER ROUND, VALUE(0) "," VALUE(12) "," SLOPE(29), 2, true},
-    {REAL FILTER ROUND, VALUE(1) "," VALUE(12) "," SLOPE(29), 2, false},
-    // a domain too short for slopes
-    {REAL, SLOPE(29), 0, true},
-    {COMPLEX, SLOPE(29), 0, true},
-    {COMPLEX, VALUE(20) "," SLOPE(29), 1, false},
+    {REAL, "v9 s10 v11 | v9 s10 x11 | s10 v11 v20 | v3 v29 s30 | s29", "v8 s10 v11 | s10 v12 | v3 s10"},
+    {"'mode': 'cubic'", "v9 s10 v11", "v9 s10 v12 | v3 v28 s30 | v3 v9 s10"},
+    {COMPLEX, "p9 q10 p11 | x9 q10 p11 | p9 q10 x11 | q10 p11 v20 | v3 q10 | q10 | v3 q30 | s29",
+     "v9 s10 v11 | p9 s10 p11 | p9 q10 v11 v20 | q10 p12 | v3 s10 | v20 s29"},
+    {REAL ", 'start': 'rest'", "", "s10 v11"},
+    {"'frequency': 1, 'damping': 0.97", "", "v3 q10"},
+    {"'frequency': 0", "", "v3 q10"},
+    {REAL ROUND, "v0 v28 s29 | s0 v1 v29", "v1 v12 s29"},
+    {COMPLEX ROUND, "q0 p1 p29", "q0 p1 v29 | v3 q10"},
+    {REAL FILTER, "s10 v11 v20 | v3 v29 s30", ""},
+    {COMPLEX FILTER, "v3 s10 v11", "p9 q10"},
+    {REAL FILTER ROUND, "v0 v12 s29", "v1 v12 s29"},
 };
 
-/// How far the curves of two slopes are apart; and the first document.
-static double change(const struct idle *idle, struct document **level)
+/// How far the curves with two slopes are apart, and what is said of the slope.
+static double change(const char *members, const char *words, const char **why)
 {
-    struct evaluation solved[2] = {{0}, {0}};
-    struct document *documents[2];
+    struct solved s[2];
     double most = 0;
     for (int i = 0; i < 2; i++) {
         char knots[512], text[1024];
-        snprintf(knots, sizeof knots, idle->knots, i * 3.0); // NOLINT: a format of the table above
+        knots_of(words, 3 * i, knots);
         snprintf(text, sizeof text, "{'wiggly': 2, 'frames': [0, 30], 'splines': [{'name': 'x', %s, 'knots': [%s]}]}",
-                 idle->spline, knots);
-        documents[i] = document_of_text(json(text));
-        evaluation_update(&solved[i], documents[i], false);
+                 members, knots);
+        solved_open(&s[i], text);
     }
-    const wiggly_curve *a = &solved[0].curves[0], *b = &solved[1].curves[0];
+    const wiggly_curve *a = &s[0].evaluation.curves[0], *b = &s[1].evaluation.curves[0];
     for (int i = 0; i < a->samples; i++)
         most = fmax(most, fmax(fabs(a->re[i] - b->re[i]), fabs(a->im[i] - b->im[i])));
-    for (int i = 0; i < 2; i++) evaluation_free(&solved[i]);
-    document_destroy(documents[1]);
-    *level = documents[0];
+    int sloped = 0;
+    while (!s[0].world.document->splines[0]->knots[sloped].has_slope) sloped++;
+    *why = knot_idle_slope(s[0].world.document, 0, sloped);
+    for (int i = 0; i < 2; i++) solved_close(&s[i]);
     return most;
 }
 
 TEST(a_slope_is_idle_where_another_one_changes_nothing)
 {
-    for (size_t n = 0; n < sizeof idles / sizeof *idles; n++) {
-        struct document *document;
-        const double moved = change(&idles[n], &document);
-        const char *why = knot_idle_slope(document, 0, idles[n].knot);
-        if (idles[n].is_idle != (moved < 1e-9) || idles[n].is_idle != (why != NULL))
-            fail_msg("%s [%s]: the curve moves by %g, and it is said: %s", idles[n].spline, idles[n].knots, moved,
-                     why ? why : "nothing");
-        document_destroy(document);
+    for (size_t n = 0; n < 2 * sizeof idles / sizeof *idles; n++) {
+        const bool is_idle = n % 2 == 0;
+        char list[512], *rest = list, *words;
+        snprintf(list, sizeof list, "%s", idles[n / 2][is_idle ? 1 : 2]);
+        while ((words = strsep(&rest, "|"))) {
+            const char *why;
+            if (!*words) continue;
+            const double moved = change(idles[n / 2][0], words, &why);
+            if (is_idle != (moved < 1e-9) || is_idle != (why != NULL))
+                fail_msg("%s [%s]: the curve moves by %g, and it is said: %s", idles[n / 2][0], words, moved,
+                         why ? why : "nothing");
+        }
     }
 }
 
