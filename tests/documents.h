@@ -97,16 +97,4 @@ static inline void assert_file_says(const struct document *document, const char 
     }
 }
 
-/// A text with what stands where `from` does replaced by `to`; the caller frees it.
-static inline char *text_with(const char *text, const char *from, const char *to)
-{
-    const char *at = strstr(text, from);
-    if (!at) fail_msg("there is no %s in %s", from, text);
-    const size_t size = strlen(text) + strlen(to) + 1;
-    char *changed = malloc(size);
-    assert_non_null(changed);
-    snprintf(changed, size, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
-    return changed;
-}
-
 #endif

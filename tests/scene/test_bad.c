@@ -40,6 +40,18 @@ static void assert_refused(const char *path, const char *fragment)
     assert_string_equal(heard.first, error.text);
 }
 
+/// A text with what stands where `from` does replaced by `to`; the caller frees it.
+static char *text_with(const char *text, const char *from, const char *to)
+{
+    const char *at = strstr(text, from);
+    if (!at) fail_msg("there is no %s in %s", from, text);
+    const size_t size = strlen(text) + strlen(to) + 1;
+    char *changed = malloc(size);
+    assert_non_null(changed);
+    snprintf(changed, size, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
+    return changed;
+}
+
 /// Checks a line of the list: a file and its sentence; or changes of the base, each from and to, and their sentence. Returns whether it
 /// is a file.
 static bool check_line(const char *base, char *line)
