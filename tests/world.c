@@ -180,7 +180,8 @@ static enum parameter parameter_called(const char *name)
     return *name >= '0' && *name <= '9' ? (enum parameter)atoi(name) : PARAMETER_COUNT;
 }
 
-#define VERB(name) if (strcmp(w->word[0], name) == 0)
+static bool is(const struct words *w, const char *verb) { return strcmp(w->word[0], verb) == 0; }
+
 #define NUMBER(i) ((int)w->number[i])
 
 /// An edit of splines; −1 if it is none.
@@ -190,54 +191,48 @@ static int do_spline(struct document *d, const struct words *w, struct error *er
     const struct spline *spline = is_there ? d->splines[w->spline] : NULL;
     const enum parameter parameter = parameter_called(w->word[2]);
     struct knot knot = {.frame = w->number[2], .value = w->number[3], .stiffness = KNOT_DEFAULT_STIFFNESS};
-    VERB("insert") return edit_knot_insert(d, w->spline, &knot, error);
+    if (is(w, "insert")) return edit_knot_insert(d, w->spline, &knot, error);
     knot.id = 9999;
     int at = NUMBER(2);
     if (spline && w->word[2][0] == '@') at = spline_find_knot(d, spline, document_sample(d, atof(w->word[2] + 1)));
     if (spline && at >= 0 && at < spline->knot_count) knot = spline->knots[at];
-    VERB("remove") return edit_knot_remove(d, w->spline, knot.id, error);
-    VERB("move") knot.frame = w->number[3], knot.value = w->number[4];
-    VERB("knot")
-    {
+    if (is(w, "remove")) return edit_knot_remove(d, w->spline, knot.id, error);
+    if (is(w, "move")) knot.frame = w->number[3], knot.value = w->number[4];
+    if (is(w, "knot")) {
         if (strcmp(w->word[3], "slope") == 0) knot.has_slope = true, knot.slope = w->number[4];
         if (strcmp(w->word[3], "im") == 0) knot.has_phase = true, knot.phase = w->number[4];
         if (strcmp(w->word[3], "stiffness") == 0) knot.stiffness = w->number[4];
         if (strcmp(w->word[3], "still") == 0) knot.still = NUMBER(4);
         if (strcmp(w->word[3], "settles") == 0) knot.settles = NUMBER(4);
     }
-    if (strcmp(w->word[0], "move") == 0 || strcmp(w->word[0], "knot") == 0)
-        return edit_knot_set(d, w->spline, &knot, error);
-    VERB("set")
-    {
+    if (is(w, "move") || is(w, "knot")) return edit_knot_set(d, w->spline, &knot, error);
+    if (is(w, "set")) {
         struct param param = param_number(w->number[3]);
         if ((unsigned)parameter < PARAMETER_COUNT && parameter_rows[parameter].kind == PARAMETER_CHOICE)
             param.value = word_among(w->word[3], parameter_rows[parameter].words);
         return edit_parameter(d, w->spline, parameter, &param, error);
     }
-    VERB("track")
-    {
+    if (is(w, "track")) {
         const struct param param = param_track(spline_called(d, w->word[3]));
         return edit_parameter(d, w->spline, parameter, &param, error);
     }
-    VERB("follow")
-    {
+    if (is(w, "follow")) {
         struct joint_motion motion = {.model = w->word[3], .joint = w->word[4], .gain = w->number[6]};
         motion.of = (enum motion_of)word_among(w->word[5], motion_words);
         if (w->word[7][0]) motion.chain = w->word[7];
         return edit_parameter(d, w->spline, parameter, &(struct param){.track = -1, .motion = &motion}, error);
     }
-    VERB("settle") return edit_spline_settles(d, w->spline, NUMBER(2), error);
-    VERB("add")
-    {
+    if (is(w, "settle")) return edit_spline_settles(d, w->spline, NUMBER(2), error);
+    if (is(w, "add")) {
         const struct knot first = {.frame = w->number[3], .value = w->number[4]};
         const char *name = strcmp(w->word[2], "-") == 0 ? NULL : w->word[2];
         return edit_spline_add(d, NUMBER(1), name, w->count > 3 ? &first : NULL, error);
     }
-    VERB("copy") return edit_spline_copy(d, w->spline, error);
-    VERB("drop") return edit_spline_remove(d, w->spline, error);
-    VERB("order") return edit_spline_move(d, w->spline, NUMBER(2), error);
-    VERB("name") return edit_spline_name(d, w->spline, w->word[2], error);
-    VERB("color") return edit_spline_color(d, w->spline, NUMBER(2), error);
+    if (is(w, "copy")) return edit_spline_copy(d, w->spline, error);
+    if (is(w, "drop")) return edit_spline_remove(d, w->spline, error);
+    if (is(w, "order")) return edit_spline_move(d, w->spline, NUMBER(2), error);
+    if (is(w, "name")) return edit_spline_name(d, w->spline, w->word[2], error);
+    if (is(w, "color")) return edit_spline_color(d, w->spline, NUMBER(2), error);
     return -1;
 }
 
@@ -257,45 +252,42 @@ static struct angles angles_said(const struct words *w)
 /// An edit of a rig's channels, drives or pins; −1 if it is none.
 static int do_part(struct world *world, const struct words *w, struct error *error)
 {
-    static const char *const kinds[] = {"rest", "lag", "gain", NULL}, *const parts[] = {"total", "displacement",
-                                                                                        NULL};
+    static const char *const kinds[] = {"rest", "lag", "gain", NULL};
+    static const char *const parts[] = {"total", "displacement", NULL};
     struct document *d = world->document;
     const bool is_there = w->rig >= 0 && w->rig < d->rig_count;
     const struct channel_place at = {w->rig, NUMBER(2)};
-    VERB("angles")
-    {
+    if (is(w, "angles")) {
         const struct angles angles = angles_said(w);
         return edit_angles(d, at, (enum angle_kind)word_among(w->word[3], kinds), &angles, error);
     }
-    VERB("bend")
-    {
+    if (is(w, "bend")) {
         if (!is_there) return edit_channel(d, at, &(struct channel){0}, error);
         const int spline = w->word[3][0] == '-' ? -1 : spline_called(d, w->word[3]);
         const int axis = w->word[4][0] == '-' ? -1 : axis_called(w->word[4]);
         const int part = w->word[5][0] == '-' ? -1 : word_among(w->word[5], parts);
         return edit_bend(world, w->rig, at.channel, spline, axis, part);
     }
-    VERB("channel")
-    return edit_channel_add(d, w->rig, spline_called(d, w->word[2]), (enum axis)axis_called(w->word[3]),
-                            (enum channel_part)word_among(w->word[4], parts), error);
-    VERB("unchannel") return edit_channel_remove(d, at, error);
-    VERB("drive")
-    {
-        const bool is_own = is_there && NUMBER(2) >= 0 && NUMBER(2) < d->rigs[w->rig]->character.drive_count;
+    if (is(w, "channel"))
+        return edit_channel_add(d, w->rig, spline_called(d, w->word[2]), (enum axis)axis_called(w->word[3]),
+                                (enum channel_part)word_among(w->word[4], parts), error);
+    if (is(w, "unchannel")) return edit_channel_remove(d, at, error);
+    if (is(w, "drive")) {
+        const struct rig *rig = is_there && d->rigs[w->rig]->kind == RIG_CHARACTER ? d->rigs[w->rig] : NULL;
         struct drive drive = {.name = w->word[6]};
-        if (is_own && d->rigs[w->rig]->kind == RIG_CHARACTER) drive = d->rigs[w->rig]->character.drives[NUMBER(2)];
+        if (rig && NUMBER(2) >= 0 && NUMBER(2) < rig->character.drive_count) drive = rig->character.drives[NUMBER(2)];
         drive.spline = spline_called(d, w->word[3]), drive.amplitude = w->number[4], drive.lag = w->number[5];
         return edit_drive(d, w->rig, NUMBER(2), &drive, error);
     }
-    VERB("undrive") return edit_drive_remove(d, w->rig, NUMBER(2), error);
-    const int first = strcmp(w->word[0], "pin") == 0 ? 2 : 3;
+    if (is(w, "undrive")) return edit_drive_remove(d, w->rig, NUMBER(2), error);
+    const int first = is(w, "pin") ? 2 : 3;
     struct pin pin = {.frame = w->number[first], .point = NUMBER(first + 1), .id = 9999};
     for (int k = 0; k < 3; k++) pin.to[k] = w->number[first + 2 + k];
     if (is_there && first == 3 && NUMBER(2) < d->rigs[w->rig]->pin_count)
         pin.id = d->rigs[w->rig]->pins[NUMBER(2)].id;
-    VERB("pin") return edit_pin_add(d, w->rig, &pin, error);
-    VERB("repin") return edit_pin_set(d, w->rig, &pin, error);
-    VERB("unpin") return edit_pin_remove(d, w->rig, pin.id, error);
+    if (is(w, "pin")) return edit_pin_add(d, w->rig, &pin, error);
+    if (is(w, "repin")) return edit_pin_set(d, w->rig, &pin, error);
+    if (is(w, "unpin")) return edit_pin_remove(d, w->rig, pin.id, error);
     return -1;
 }
 
@@ -303,23 +295,23 @@ static int do_part(struct world *world, const struct words *w, struct error *err
 static int do_rig(struct document *d, const struct words *w, struct error *error)
 {
     static const char *const fits[] = {"refuse", "move", "trim", NULL};
-    VERB("fps") return edit_fps(d, w->number[1], w->count > 2, error);
-    VERB("substeps") return edit_substeps(d, NUMBER(1), error);
-    VERB("range")
-    return edit_range(d, NUMBER(1), NUMBER(2), (enum range_fit)word_among(w->word[3], fits), error);
-    VERB("tail") return edit_tail_add(d, w->rig, spline_called(d, w->word[2]), error);
-    VERB("unrig") return edit_rig_remove(d, w->rig, error);
-    VERB("rename") return edit_rig_name(d, w->rig, w->word[2], error);
-    VERB("joints") return edit_joints(d, w->rig, NUMBER(2), error);
+    if (is(w, "fps")) return edit_fps(d, w->number[1], w->count > 2, error);
+    if (is(w, "substeps")) return edit_substeps(d, NUMBER(1), error);
+    if (is(w, "range"))
+        return edit_range(d, NUMBER(1), NUMBER(2), (enum range_fit)word_among(w->word[3], fits), error);
+    if (is(w, "tail")) return edit_tail_add(d, w->rig, spline_called(d, w->word[2]), error);
+    if (is(w, "unrig")) return edit_rig_remove(d, w->rig, error);
+    if (is(w, "rename")) return edit_rig_name(d, w->rig, w->word[2], error);
+    if (is(w, "joints")) return edit_joints(d, w->rig, NUMBER(2), error);
     struct rig changed = {.kind = RIG_TAIL};
     int wanted = 0;
     if (w->rig >= 0 && w->rig < d->rig_count) changed = *d->rigs[w->rig];
-    VERB("length") wanted = 1, changed.tail.length = w->number[2];
-    VERB("place") wanted = 1, changed.tail.position[NUMBER(2)] = param_number(w->number[3]);
-    VERB("ride") wanted = 1, changed.tail.position[NUMBER(2)] = param_track(spline_called(d, w->word[3]));
-    VERB("clip") wanted = 1, changed.model.clip = w->word[2];
-    VERB("turn") wanted = 1, changed.chain.turn = w->number[2];
-    VERB("floor") wanted = 1, changed.character.has_floor = true, changed.character.floor = w->number[2];
+    if (is(w, "length")) wanted = 1, changed.tail.length = w->number[2];
+    if (is(w, "place")) wanted = 1, changed.tail.position[NUMBER(2)] = param_number(w->number[3]);
+    if (is(w, "ride")) wanted = 1, changed.tail.position[NUMBER(2)] = param_track(spline_called(d, w->word[3]));
+    if (is(w, "clip")) wanted = 1, changed.model.clip = w->word[2];
+    if (is(w, "turn")) wanted = 1, changed.chain.turn = w->number[2];
+    if (is(w, "floor")) wanted = 1, changed.character.has_floor = true, changed.character.floor = w->number[2];
     return wanted ? edit_rig_set(d, w->rig, &changed, error) : -1;
 }
 
