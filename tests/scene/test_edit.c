@@ -114,6 +114,7 @@ static const struct change {
     {small, "insert sway 28 4; range 2 28 trim", "s0.k#=2; s0.k0.frame=12; s0.k1.frame=28"},
     {small, "insert sway 28 4; range 2 28 move", // the knot at 28 makes room for the one from 30
      "s0.k0.frame=2; s0.k1.frame=12; s0.k2.frame=27; s0.k3.frame=28"},
+    {small, "move sway 2 28.3 -1; range 2 28 move", "s0.k0.frame=2; s0.k2.frame=28.3"},
     {small, "range 13 40 move", "s0.k0={'frame':13,'value':0,'tag':1}; s0.k1.frame=14; s2.k0.frame=13"},
     {small, "range 0 2 move", "s0.k2.frame=2; s0.k1.frame=1; s2.k0.frame=1"},
     {pinned, "range 0 29 move", "r0.p1.frame=29; r0.p1.why='grip'"},
@@ -348,6 +349,10 @@ static const struct refusal {
     {jointed, "unrig tail", "tail: still needed by wag; remove those first"},
     {jointed, "rename dog dog.glb", "expected a name that is no model's file, got dog.glb"},
     {jointed, "rename dog tail", "there is a rig called tail already"},
+    {"{'frames': [0, 9], 'rigs': [{'type': 'chain', 'name': 'c', 'model': 'd.glb', 'from': 'a', 'to': 'b'}, {'type': "
+     "'model', "
+     "'name': 'm', 'model': 'd.glb'}]}",
+     "rename m d.glb", "expected a name that is no model's file, got d.glb"},
     {jointed, "angles tail 0 rest 1", "only a tail has angles at rest"},
 };
 

@@ -135,6 +135,24 @@ SOLVED_TEST(a_value_beyond_reach_is_flat,
     }
 }
 
+/// Knots that settle move the equilibrium; between two samples it is in between, and beyond the ends as at them.
+SOLVED_TEST(
+    settling_knots_move_the_equilibrium,
+    "{'frames': [0, 40], 'splines': [{'name': 'a', 'frequency': 1, 'damping': 0.1, 'equilibrium': 3, 'knots': "
+    "[{'frame': 0, 'value': 0, 'settles': true}, {'frame': 20, 'value': 1, 'settles': true}]}]}")
+{
+    double at[42];
+    for (int i = 0; i <= 41; i++) at[i] = evaluation_offset(&s->evaluation, s->world.document, 0, i);
+    for (int i = 0; i < 40; i++)
+        assert_near(evaluation_offset(&s->evaluation, s->world.document, 0, i + 0.25),
+                    0.75 * at[i] + 0.25 * at[i + 1], 1e-12);
+    assert_near(at[20], -2, 0.5);
+    assert_true(fabs(at[20] - at[0]) > 0.1 && at[41] == at[40]);
+    assert_near(evaluation_offset(&s->evaluation, s->world.document, 0, -9), at[0], 0);
+    solve_after(s, "settle a 0");
+    assert_near(evaluation_offset(&s->evaluation, s->world.document, 0, 20), 0, 0);
+}
+
 /// Finds no point.
 static bool find_nothing(void *context, const struct evaluation *evaluation, const struct document *document,
                          const struct pin_query *query, pin_pull *c, struct pin_point *point)
