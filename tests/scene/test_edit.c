@@ -42,6 +42,11 @@ static const char jointed[] =
     "'alone'}],'rigs': [{'type': 'model', 'name': 'dog', 'model': 'dog.glb', 'clip': 'Walk'}, {'type': 'chain', "
     "'name': 'tail', 'model': 'dog', 'from': 'a', 'to': 'b'}]}";
 
+/// A chain before its model, which it goes by the file.
+static const char by_file[] =
+    "{'frames': [0, 9], 'rigs': [{'type': 'chain', 'name': 'c', 'model': 'd.glb', 'from': 'a', 'to': 'b'}, {'type': "
+    "'model', 'name': 'm', 'model': 'd.glb'}]}";
+
 // --- what edits do
 
 /// Edits of a scene, and what the file then says. The last one is taken back and done again, to the byte.
@@ -189,6 +194,7 @@ static const struct change {
     {jointed, "follow alone equilibrium dog.glb spine up 3; set alone equilibrium 1", "s3.equilibrium=1"},
     {jointed, "track wag equilibrium alone", "s0.equilibrium={'spline':'alone'}"},
     {jointed, "rename dog wolf", "s0.equilibrium.model='wolf'; s1.equilibrium.model='dog.glb'; r1.model='wolf'"},
+    {by_file, "rename m dog; rename c d.glb", "r0.name='d.glb'; r0.model='d.glb'; r1.name='dog'"},
     {jointed, "rename tail brush", "s0.equilibrium.chain='brush'; s0.equilibrium.why=1"},
     {jointed, "clip dog Run", "r0.clip='Run'"},
     {jointed, "turn tail 30", "r1.turn=30"},
@@ -349,10 +355,7 @@ static const struct refusal {
     {jointed, "unrig tail", "tail: still needed by wag; remove those first"},
     {jointed, "rename dog dog.glb", "expected a name that is no model's file, got dog.glb"},
     {jointed, "rename dog tail", "there is a rig called tail already"},
-    {"{'frames': [0, 9], 'rigs': [{'type': 'chain', 'name': 'c', 'model': 'd.glb', 'from': 'a', 'to': 'b'}, {'type': "
-     "'model', "
-     "'name': 'm', 'model': 'd.glb'}]}",
-     "rename m d.glb", "expected a name that is no model's file, got d.glb"},
+    {by_file, "rename m d.glb", "expected a name that is no model's file, got d.glb"},
     {jointed, "angles tail 0 rest 1", "only a tail has angles at rest"},
 };
 

@@ -118,7 +118,7 @@ SOLVED_TEST(it_fits_another_document, "{'frames': [0, 5], 'splines': [{'name': '
 
 /// A value that no curve can pass: nothing moves any more, the status says why, and nothing that reads the curve falls over.
 SOLVED_TEST(a_value_beyond_reach_is_flat,
-            "{'frames': [0, 40], 'splines': [{'name': 'a', 'knots': [{'frame': 0, 'value': "
+            "{'frames': [0, 40], 'splines': [{'name': 'a', 'start': 'loop', 'knots': [{'frame': 0, 'value': "
             "1}, {'frame': 30, 'value': -1.7e308}]}]}")
 {
     char sentence[EVALUATION_SENTENCE];
@@ -127,6 +127,7 @@ SOLVED_TEST(a_value_beyond_reach_is_flat,
         assert_true(evaluation_sentence(&s->evaluation, 0, sentence));
         assert_non_null(strstr(sentence, "the knot at frame 30: "));
         const wiggly_value value = wiggly_evaluate(&s->evaluation.curves[0], 12.5);
+        assert_int_equal(s->evaluation.curves[0].start, WIGGLY_FREE);
         assert_near(value.y + value.re, 0, 0);
         solve_after(s, "move a 1 30 -1");
         assert_near(s->evaluation.curves[0].total[30], -1, 0);
