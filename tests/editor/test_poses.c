@@ -330,7 +330,7 @@ static void open_beast(struct session *session, const char *knots)
 
 static const char two_knots[] = "<12 0.3>, <72 -0.4>";
 
-/// The knot on the sample is a pose, of what the curve shows there. test_pose_holds.c has what may change then.
+/// The knot on the sample is a pose, of what the curve shows there. test_solutions.c has what may change then.
 static void assert_pose(const struct session *session, int s, int sample)
 {
     const struct spline *spline = session->document->splines[s];
