@@ -1,6 +1,6 @@
 # make bench, feel, adversary, figures, regress, fuzz and proof: how fast, how good and how safe it is.
 
-.PHONY: bench feel adversary figures regress fuzz fuzzers proof
+.PHONY: bench feel adversary figures regress fuzz proof
 
 bench: $(B)/wiggly-bench
 	$(Q)$< $(ARGS)
@@ -34,18 +34,12 @@ SECONDS ?= 20
 SEED ?= 1
 fuzz:
 	$(Q)tools/install-missing.sh build clang
-	$(Q)$(MAKE) --no-print-directory CC=$(if $(findstring clang,$(CC)),$(CC),clang) SANITIZE=1 FUZZ=1 B=$(B)/fuzz fuzzers
-	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) SEED=$(SEED) tests/fuzz/run.sh $(B)/fuzz $(sort $(notdir $(FUZZERS)))
-
-FUZZERS := $(basename $(notdir $(wildcard tests/fuzz/fuzz_*.c)))
-FUZZ_SUPPORT := $(filter-out tests/fuzz/fuzz_%.c,$(wildcard tests/fuzz/*.c))
+	$(Q)$(MAKE) --no-print-directory CC=$(if $(findstring clang,$(CC)),$(CC),clang) SANITIZE=1 FUZZ=1 B=$(B)/fuzz $(B)/fuzz/fuzzer
+	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) SEED=$(SEED) tests/fuzz/run.sh $(B)/fuzz
 
 # Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/maths/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
     $(addprefix src/app/,replay.c settings.c) src/timing/framelog.c \
-    $(wildcard src/rig/*.c src/export/*.c src/simulation/*.c) src/draw/posed.c src/commands/companion.c
-fuzzers: $(FUZZERS:%=$(B)/%)
-$(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
-	$(Q)rm -f $@ && ar rcs $@ $^
-$(FUZZERS:%=$(B)/%): $(B)/%: $(B)/obj/tests/fuzz/%.o $(B)/fuzzed.a
+    $(wildcard src/rig/*.c src/export/*.c src/simulation/*.c) src/draw/posed.c src/commands/companion.c $(wildcard tests/fuzz/*.c)
+$(B)/fuzzer: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o
 	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined -Wl,--as-needed -Wl,--wrap=_Znwm -Wl,--wrap=_Znam $^ $(LIBS) -o $@

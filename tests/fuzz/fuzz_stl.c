@@ -1,8 +1,0 @@
-/// STL surfaces.
-#include "surface.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-    fuzz_surface(fuzz_file("fuzz.stl", data, size));
-    return 0;
-}
