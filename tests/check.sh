@@ -48,6 +48,32 @@ says() { # <what> <fragment> <text>
     ok "$1" $status
 }
 
+# A command that ends so and says that, on either output.
+tells() { # <status> <what> <fragment> <command>...
+    expect "$1" "$2" "${@:4}"
+    says "$2: it says so" "$3" "$out$err"
+}
+
+# From here on the current folder is $scratch: all but $root/assets and the like is named without it.
+go_to_scratch() {
+    root=$PWD B=$(realpath "$B") WIGGLY=$(realpath "$WIGGLY")
+    cd "$scratch" || exit 1
+}
+wiggly() { "$WIGGLY" "$@"; }
+draws() { wiggly live --headless --frames 1 >/dev/null 2>&1 || { echo "skip - nothing is drawn here"; return 1; }; }
+
+# Waits for a command to succeed, a minute at most.
+await() { # <command>...
+    local tries
+    for tries in $(seq 1200); do "$@" && return; sleep 0.05; done
+    return 1
+}
+
+write_box() { # <file.obj>: 1 × 2 × 1 m
+    printf 'v %s\n' '0 0 0' '1 0 0' '1 0 1' '0 0 1' '0 2 0' '1 2 0' '1 2 1' '0 2 1' >"$1"
+    printf 'f %s\n' '1 2 3 4' '8 7 6 5' '1 5 6 2' '2 6 7 3' '3 7 8 4' '4 8 5 1' >>"$1"
+}
+
 # Whether the program itself said nothing; libraries have words of their own (XDG_RUNTIME_DIR, an X server's cookie).
 silent() { # <text>
     ! printf '%s\n' "$1" | grep -E '^wiggly|ERROR: |runtime error'
