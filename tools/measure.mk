@@ -1,6 +1,6 @@
 # make bench, feel, adversary, figures, regress, fuzz and proof: how fast, how good and how safe it is.
 
-.PHONY: bench feel adversary figures regress fuzz proof
+.PHONY: bench feel adversary figures regress fuzz fuzzer proof
 
 bench: $(B)/wiggly-bench
 	$(Q)$< $(ARGS)
@@ -32,10 +32,12 @@ regress: $(B)/wiggly $(B)/timing_diff
 # Objects of their own, for clang's fuzzer and both sanitizers.
 SECONDS ?= 20
 SEED ?= 1
-fuzz:
+fuzz: fuzzer
+	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) SEED=$(SEED) tests/fuzz/run.sh $(B)/fuzz
+
+fuzzer:
 	$(Q)tools/install-missing.sh build clang
 	$(Q)$(MAKE) --no-print-directory CC=$(if $(findstring clang,$(CC)),$(CC),clang) SANITIZE=1 FUZZ=1 B=$(B)/fuzz $(B)/fuzz/fuzzer
-	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) SEED=$(SEED) tests/fuzz/run.sh $(B)/fuzz
 
 # Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/maths/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
