@@ -60,7 +60,9 @@ go_to_scratch() {
     cd "$scratch" || exit 1
 }
 wiggly() { "$WIGGLY" "$@"; }
-draws() { wiggly live --headless --frames 1 >/dev/null 2>&1 || { echo "skip - nothing is drawn here"; return 1; }; }
+draws() {
+    [ -n "${drawn:=$(wiggly live --headless --size 320x320 --frames 1 2>/dev/null)}" ] || { echo "skip - nothing is drawn here"; return 1; }
+}
 
 # Waits for a command to succeed, a minute at most.
 await() { # <command>...

@@ -57,7 +57,7 @@ expect 3 "standard output that is full" sh -c '"$0" solve "$1" >/dev/full' "$WIG
 replays=$root/tests/replays
 for solver in chain band; do
     expect 0 "solve by the $solver" wiggly solve --solver $solver -o $solver.csv "$scenes/figure4.json"
-    expect 0 "a session plays by the $solver" wiggly live --no-draw --replay "$replays/session.replay" --frames 400 --solver $solver \
+    expect 0 "a session plays by the $solver" wiggly live --no-draw --replay "$replays/session.replay" --frames 300 --solver $solver \
         --log $solver.log --result $solver.json "$replays/session.json"
     holds "its log says so, and of no other" [ "$(grep '^# solver' $solver.log)" = "# solver: $solver" ]
 done
@@ -235,7 +235,7 @@ if [ "$(german bash -c 'printf %.1f 1,5' 2>/dev/null)" = "1,5" ]; then
         german "$WIGGLY" export "$tail" -o there.$ending --quiet && cmp elsewhere there.$ending
         ok "decimal commas: .$ending is written as elsewhere" $?
     done
-    expect 0 "decimal commas: a session" german "$WIGGLY" live --no-draw --replay "$replays/session.replay" --frames 400 --result german.json "$replays/session.json"
+    expect 0 "decimal commas: a session" german "$WIGGLY" live --no-draw --replay "$replays/session.replay" --frames 300 --result german.json "$replays/session.json"
     holds "edits and saves as elsewhere" cmp german.json band.json
 else
     echo "skip - there is no localedef, or no German"
