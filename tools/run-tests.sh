@@ -79,7 +79,7 @@ report_ended() {
 }
 
 # Start the longest tests first, so that none runs alone at the end. A test without a known time may be long, these and scripts first.
-long=" test_web.sh test_python.sh test_starve test_blender.sh test_monkey test_npm.sh test_farm.sh "
+long=" test_web.sh test_python.sh test_starve test_blender.sh test_monkey test_npm.sh "
 longest_first() { # <test>...
     local test took name
     for test in "$@"; do

@@ -1,19 +1,72 @@
-# What `make install` puts in place can be used: the examples compile against the installed .pc file and run; C++ reads the header.
+# The Makefile in hands that its author does not know: flags of the user's, folders with spaces, root in somebody else's clone. And what
+# `make install` puts in place can be used: the examples compile against the installed .pc file and run; C++ reads the header; CMake finds it.
 . tests/check.sh
 CC=${CC:-gcc}
+
+# --- the Makefile; how this very suite is built says nothing here, so that once is enough
+
+makefile() {
+    local MAKEFLAGS B DEBUG SANITIZE line clone before folder theirs="$scratch/their tree"
+    unset MAKEFLAGS B DEBUG SANITIZE
+    # How src/spline/batch.c would be compiled, and wiggly linked.
+    compile_line() { make --no-print-directory -n V=1 B="$scratch/none" "$@" 2>&1 | grep -- '-c src/spline/batch.c'; }
+    after() { # <what> <earlier> <later> <line>
+        case $4 in *"$2"*"$3"*) ok "$1" 0 ;; *) echo "  $4"; ok "$1" 1 ;; esac
+    }
+    line=$(compile_line CFLAGS="-O2 -march=native" CPPFLAGS=-DMINE)
+    says "CFLAGS on the command line keep what the sources need" "-D_GNU_SOURCE" "$line"
+    after "they come after our own" "-O3" "-O2 -march=native" "$line"
+    after "but not after what the results depend on" "-march=native" "-ffp-contract=off" "$line"
+    says "CPPFLAGS add" "-DMINE" "$line"
+    after "the same from the environment" "-ffast-math" "-fno-fast-math" "$(CFLAGS=-ffast-math compile_line)"
+    line=$(make --no-print-directory -n V=1 B="$scratch/none" LDFLAGS=-Wl,-z,now LDLIBS=-lm 2>&1 | grep -- '-o .*/wiggly$')
+    says "LDFLAGS keep the project's" "--wrap=malloc" "$line"
+    says "and add" "-Wl,-z,now" "$line"
+    echo 'int main(void) { return missing(); }' >"$scratch/implicit.c"
+    # shellcheck disable=SC2046
+    expect 1 "an implicit declaration is an error" gcc $(compile_line | grep -o -- '-Werror=[a-z-]*') -c "$scratch/implicit.c" -o "$scratch/implicit.o"
+
+    # Two clones build the same bytes, also where a name needs quotes.
+    for clone in one "it's another"; do
+        mkdir "$scratch/$clone" && cp -r Makefile include src tools "$scratch/$clone"
+        expect 0 "an object is built in a folder called $clone" env CCACHE_DISABLE=1 make -C "$scratch/$clone" SETS= build/obj/src/spline/batch.o build/obj/build.o
+    done
+    holds "it has the same bytes in both" diff -r "$scratch/one/build" "$scratch/it's another/build"
+    holds "and does not name its folder" not grep -aq "$scratch" "$scratch/one/build/obj/src/spline/batch.o"
+
+    # A tree of somebody else's, built by them.
+    mkdir -p "$theirs/build"
+    cp -r Makefile LICENSE wiggly.pc.in include src shaders assets tools tests "$theirs"
+    cp "$built/wiggly" "$built"/libwiggly.* "$theirs/build"
+    expect 0 "B and DESTDIR with spaces" make -C "$theirs" B="$scratch/my build" -n install DESTDIR="$scratch/a stage"
+    holds "the build folder is the one that was named" [ -d "$scratch/my build" ]
+    rm -rf "$theirs/build/links"
+    [ "$(id -u)" = 0 ] || return
+    chown -R nobody "$theirs"
+    chmod 755 "$scratch"
+    before=$(find "$theirs" | wc -l)
+    expect 0 "root installs from it" make -C "$theirs" install DESTDIR="$scratch/a stage" PREFIX=/opt/wiggly
+    holds "and leaves nothing there" [ "$(find "$theirs" | wc -l) $(find "$theirs" -user root)" = "$before " ]
+    holds "what is installed knows its version" [ "$("$scratch/a stage/opt/wiggly/bin/wiggly" --version)" = "$("$built/wiggly" --version)" ]
+    touch "$theirs/src/main.c"
+    folder=$(cd "$theirs" && TMPDIR=$scratch tools/install-from.sh build)
+    holds "what is not built, or was changed since, is built elsewhere" [ "${folder#"$scratch"/wiggly-install.}" != "$folder" ]
+}
+built=$B
+[ -n "${SANITIZE:-}" ] || makefile
+tells 0 "licences of what is built in are printed" "part of this program" wiggly --licenses
+
+# --- make install
+
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
 
 # What was built for the tests: another test may be at the same build folder. Root may keep its files to itself; not these.
 umask 077
-make BORROWED=yes B="${B:-build}" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
-status=$?
-[ $status -eq 0 ] || cat "$scratch/log"
-ok "make install" $status
+install() { make BORROWED=yes B="$B" SANITIZE="${SANITIZE:-}" "$@"; }
+expect 0 "make install" install DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install
 umask 022
-find "$scratch/stage" \( -type d ! -perm -755 -o -type f ! -perm -644 \) >"$scratch/hidden"
-cat "$scratch/hidden"
-holds "everybody can read all of it" [ ! -s "$scratch/hidden" ]
+holds "everybody can read all of it" [ -z "$(find "$scratch/stage" \( -type d ! -perm -755 -o -type f ! -perm -644 \))" ]
 
 root=$scratch/stage/opt/wiggly
 for file in bin/wiggly lib/libwiggly.a lib/libwiggly.so lib/cmake/wiggly/wigglyConfig.cmake lib/pkgconfig/wiggly.pc include/wiggly/wiggly.h include/wiggly/more.h share/wiggly/scenes/tail.json \
@@ -21,27 +74,23 @@ for file in bin/wiggly lib/libwiggly.a lib/libwiggly.so lib/cmake/wiggly/wigglyC
     holds "$file is installed" [ -s "$root/$file" ]
 done
 
-expect 0 "make install-library" make BORROWED=yes B="${B:-build}" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/library" PREFIX= install-library
-(cd "$scratch/library" && find . ! -type d | sort) >"$scratch/alone"
-(cd "$root" && find ./include ./lib ! -type d | sort) >"$scratch/within"
-holds "is the library's part of it, and no more" diff "$scratch/within" "$scratch/alone"
+expect 0 "make install-library" install DESTDIR="$scratch/library" PREFIX= install-library
+holds "is the library's part of it, and no more" diff <(cd "$root" && find ./include ./lib ! -type d | sort) <(cd "$scratch/library" && find . ! -type d | sort)
 
 page=$root/share/man/man1/wiggly.1
 if command -v man >/dev/null; then
     expect 0 "the page is one for man" man --warnings=all -l "$page"
-    [ -z "$err" ] || echo "  $err"
-    holds "without a warning" [ -z "$err" ]
+    holds "without a warning: $err" [ -z "$err" ]
 fi
 for command in live solve check simulate analyze log; do
     missing=$("$root/bin/wiggly" $command --help-all | sed -nE 's/^  ((-., )?--[a-z-]+.*[^ ])  +.*/\1/p' | while IFS= read -r option; do
         sed 's/\\-/-/g' "$page" | grep -qxF ".B $option" || echo "$option"
     done)
-    [ -z "$missing" ] || echo "  not in wiggly.1: $missing"
-    holds "the page has every option of $command" [ -z "$missing" ]
+    holds "the page has every option of $command: $missing" [ -z "$missing" ]
 done
 entry() { sed -n "s/^$1=//p" "$root/share/applications/wiggly.desktop"; }
-[ "$(entry Exec)" = "wiggly %f" ] && [ -e "$root/share/icons/hicolor/scalable/apps/$(entry Icon).svg" ]
-ok "the desktop's entry starts the program and has its icon" $?
+holds "the desktop's entry starts the program" [ "$(entry Exec)" = "wiggly %f" ]
+holds "and has its icon" [ -e "$root/share/icons/hicolor/scalable/apps/$(entry Icon).svg" ]
 if command -v desktop-file-validate >/dev/null; then
     expect 0 "and is a good one" desktop-file-validate "$root/share/applications/wiggly.desktop"
 fi
@@ -49,8 +98,7 @@ fi
 # An installation that was moved works as before.
 root=$scratch/moved
 mv "$scratch/stage/opt/wiggly" "$root"
-grep -rlI "$scratch/stage\|/opt/wiggly" "$root" >"$scratch/names"
-holds "no file of it names its place" [ ! -s "$scratch/names" ]
+holds "no file of it names its place" not grep -rlI "$scratch/stage\|/opt/wiggly" "$root"
 from_elsewhere() { (cd "$scratch" && "$root/bin/wiggly" "$@"); }
 expect 0 "the default scene opens" from_elsewhere live --no-draw --frames 2 --result "$scratch/opened.json"
 expect 0 "and is the installed one" cmp "$scratch/opened.json" <(from_elsewhere live --no-draw --frames 2 \
@@ -77,12 +125,9 @@ says "the curve hits its third knot" "3.750000,-0.500000000," "$("$scratch/curve
 
 cat >"$scratch/use.cpp" <<'CPP'
 #include <wiggly/more.h>
-int main()
-{
-    wiggly_desc desc = wiggly_default_desc();
-    wiggly_explanation best[2];
-    return desc.calm == 1 && wiggly_explain(&desc, best) == 0 ? 0 : 1;
-}
+wiggly_desc desc = wiggly_default_desc();
+wiggly_explanation best[2];
+int main() { return desc.calm == 1 && wiggly_explain(&desc, best) == 0 ? 0 : 1; }
 CPP
 # shellcheck disable=SC2086
 expect 0 "C++ compiles and links the headers" g++ -Wall -Wextra -Wpedantic -Werror $sanitizers "$scratch/use.cpp" $flags -o "$scratch/use"
@@ -121,8 +166,7 @@ CMAKE
             -DCMAKE_C_FLAGS="$sanitizers" "${@:2}"
     }
     next=$((${version%%.*} + 1))
-    expect 1 "CMake is refused another major version" configure "$next.0"
-    says "and told what there is" "version: $version" "$err"
+    tells 1 "CMake is refused another major version, and told what there is" "version: $version" configure "$next.0"
     expect 0 "and finds its own" configure "${version%.*}"
     expect 0 "a CMake project builds" env -u MAKEFLAGS cmake --build "$scratch/made"
     unset LD_LIBRARY_PATH

@@ -1,8 +1,62 @@
-# The Python package: its tests and the examples of its pages. Where Python lacks NumPy, it is fetched into the build folder.
+# The Python package: its tests and the examples of its pages; and examples/farm.py: a farm's shots have the bits of one machine, also where
+# a worker is killed. Where Python lacks NumPy, it is fetched into the build folder.
 . tests/check.sh
 [ -z "${SANITIZE:-}" ] || { echo "skip - Python loads no sanitized library"; exit 0; }
 command -v python3 >/dev/null || { echo "skip - python3 is not installed"; exit 0; }
-. tests/venv.sh
+WIGGLY=$(realpath "$WIGGLY")
+place=$(mkdir -p "$B/python" && realpath "$B/python")
+fetch() { # <group of python/fetched.txt>...
+    timeout 600 python/fetch.sh "$place" "$@" >"$scratch/fetch" 2>&1
+}
+
+# --- the farm
+
+export WIGGLY
+shots=$scratch/shots.txt one=$scratch/one
+for i in {1..8}; do echo "shot$i assets/models/creature.glb --tets 300 --seconds 1 --substeps 1 --damping 0.0$i"; done >"$shots"
+echo "bad assets/models/creature.glb --damping 9" >>"$shots"
+shot() { python3 examples/farm.py "$shots" "$one" --only "$1"; } # <number>
+expect 0 "one shot is made" shot 1
+touch -d 2001-01-01 "$one/shot1.glb"
+expect 0 "it is not made again" shot 1
+holds "so that its file stays" [ ! "$one/shot1.glb" -nt Makefile ]
+tells 1 "a shot that fails says why, with its name" "bad: wiggly simulate: " shot 9
+holds "and leaves nothing" [ "$(ls -A "$one")" = shot1.glb ]
+while IFS='|' read -r what only said list; do
+    printf "$list" >"$scratch/wrong.txt"
+    tells 1 "$what is refused" "$said" python3 examples/farm.py "$scratch/wrong.txt" "$one" --only "$only"
+    holds "$what: in a sentence" not grep -q Traceback <<<"$err"
+done <<'END'
+a name that is there twice|1|wrong.txt: expected a name and a mesh in every line, and no name twice|a x.obj\n\na y.obj\n
+a shot without a mesh|1|wrong.txt: expected a name and a mesh|a\n
+a shot that the list lacks|0|expected 1 to 1, got 0|a x.obj\n
+a mesh that is not there|1|a: x.obj: cannot be opened|a x.obj\n
+END
+groups=()
+start() { setsid "$place/bin/python" -m dask "$@" >>"$scratch/dask" 2>&1 & groups+=($!); }
+address() { sed -n 's/.*"address": "\([^"]*\)".*/\1/p' "$scratch/scheduler.json" 2>/dev/null | grep .; }
+begun() { ls "$scratch/many" 2>/dev/null | grep -q .; }
+if thorough && ! fetch farm; then
+    echo "skip - dask.distributed could not be fetched: $(tail -n 1 "$scratch/fetch")"
+elif thorough; then # two workers, of which one is killed
+    for i in {2..8}; do shot $i >"$scratch/said"; done
+    at_end() { kill -9 "${groups[@]/#/-}" 2>/dev/null; wait; }
+    start scheduler --port 0 --no-dashboard --scheduler-file "$scratch/scheduler.json"
+    await address >"$scratch/said"
+    for _ in 1 2; do start worker "$(address)" --nthreads 1 --no-nanny --no-dashboard --local-directory "$scratch"; done
+    timeout 600 "$place/bin/python" examples/farm.py "$shots" "$scratch/many" --scheduler "$(address)" >"$scratch/said" 2>&1 &
+    farm=$!
+    await begun
+    kill -9 "-${groups[1]}" # with the command that it runs
+    wait $farm
+    holds "the farm ends although a worker was killed" [ $? = 1 ]
+    holds "and names the shot that failed" grep -q "^bad: wiggly simulate" "$scratch/said"
+    rm -rf "$scratch"/many/.*-* # what the killed worker left
+    holds "all shots have the bits of one machine" diff -r "$one" "$scratch/many"
+fi
+
+# --- the package
+
 python=python3
 if ! python3 -c 'import numpy' 2>/dev/null; then
     python=$place/bin/python
@@ -10,7 +64,7 @@ if ! python3 -c 'import numpy' 2>/dev/null; then
         { echo "skip - NumPy could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
 fi
 
-export PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 WIGGLY
+export PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1
 WIGGLY_LIBRARY=$(ls "$B"/libwiggly.so.*)
 export WIGGLY_LIBRARY
 expect 0 "the package does what its pages say" "$python" -W error::DeprecationWarning -m unittest discover -s python/tests
@@ -36,15 +90,13 @@ has_thing() { "$1/bin/python" -c 'import thing' 2>/dev/null; }
 echo "thing==1.0 --hash=sha256:${hash%% *} # some more" >"$scratch/fetch.d/fetched.txt"
 sed 's/:..../:0000/; s/some/wrong/' "$scratch/fetch.d/fetched.txt" >"$scratch/wrong" && cat "$scratch/wrong" >>"$scratch/fetch.d/fetched.txt"
 first=$scratch/clone/build/python
-expect 1 "a package whose hash is not the one that is listed is refused" own_fetch "$first" wrong
-says "and pip says so" "DO NOT MATCH THE HASHES" "$err"
+tells 1 "a package whose hash is not the one that is listed is refused" "DO NOT MATCH THE HASHES" own_fetch "$first" wrong
 holds "and is not there" not has_thing "$first"
 cp -a "$scratch/clone" "$scratch/copied clone"
 expect 0 "one with its hash is installed in a copied clone" own_fetch "$scratch/copied clone/build/python" some
 holds "where it is" has_thing "$scratch/copied clone/build/python"
 holds "and not in the one that was copied" not has_thing "$first"
-expect 0 "pip there is its own" "$scratch/copied clone/build/python/bin/pip" --version
-says "by its path" "$scratch/copied clone" "$out"
+tells 0 "pip there is its own" "$scratch/copied clone" "$scratch/copied clone/build/python/bin/pip" --version
 ln -sf /nowhere/python "$first/bin/python3"
 expect 0 "where Python is gone, the folder is made anew" own_fetch "$first" more
 holds "and has the package" has_thing "$first"
@@ -61,10 +113,9 @@ fetch wheel check ||
 expect 0 "the types are right" "$place/bin/python" -m mypy --cache-dir "$scratch/mypy" --config-file python/pyproject.toml python/src/wiggly
 sed -n '/^```python$/,/^```$/{/^```/!p;}' docs/python.md >"$scratch/page.py"
 expect 0 "and those of a strict user" env MYPYPATH=python/src "$place/bin/python" -m mypy --cache-dir "$scratch/mypy" --strict "$scratch/page.py"
-expect 1 "without a C compiler nothing is built" bash -c "cd python && CC=/nowhere/cc '$place/bin/python' -m hatchling build -t wheel -d '$scratch'"
-says "which says why" "the compiler '/nowhere/cc' was not found" "$err"
-expect 1 "CFLAGS are heard" bash -c "cd python && CFLAGS='-include /nowhere.h' '$place/bin/python' -m hatchling build -t wheel -d '$scratch'"
-says "by the compiler" "/nowhere.h" "$err"
+hatch() { (cd python && "$place/bin/python" -m hatchling build -t "$1" -d "$scratch"); } # <kind>
+CC=/nowhere/cc tells 1 "without a C compiler nothing is built" "the compiler '/nowhere/cc' was not found" hatch wheel
+CFLAGS='-include /nowhere.h' tells 1 "CFLAGS are heard by the compiler" "/nowhere.h" hatch wheel
 expect 0 "wheels are built" python/wheels.sh "$B" "${platforms[@]}"
 exports() { # <library>: the names that leave it, but for the runtimes'
     case $1 in
@@ -86,8 +137,7 @@ for wheel in "$B"/wheels/*.whl; do
 done
 for wheel in "$B"/wheels/*-manylinux*.whl; do
     platform=${wheel##*-none-}
-    expect 0 "auditwheel looks into $platform" "$place/bin/python" -m auditwheel show "$wheel"
-    says "which is what it says" "\"${platform%.whl}\"" "$out"
+    tells 0 "auditwheel finds $platform to be what it says" "\"${platform%.whl}\"" "$place/bin/python" -m auditwheel show "$wheel"
 done
 
 # --- the wheel of this machine, without the tree
@@ -101,8 +151,7 @@ if python/fetch.sh "$scratch/venv" freeze >"$scratch/fetch" 2>&1; then
     echo 'from wiggly import Spline; print(Spline([(0, 0), (1, 0.25)]).solve(49).total[24])' >"$scratch/app.py"
     freeze=("$scratch/venv/bin/pyinstaller" --log-level ERROR --distpath "$scratch" --workpath "$scratch/work" --specpath "$scratch")
     expect 0 "PyInstaller takes it along" "${freeze[@]}" --onefile "$scratch/app.py"
-    expect 0 "and the program runs alone" "$scratch/app"
-    says "as it should" 0.25 "$out"
+    tells 0 "and the program runs alone, as it should" 0.25 "$scratch/app"
 else
     echo "skip - PyInstaller could not be fetched: $(tail -n 1 "$scratch/fetch")"
 fi
@@ -113,6 +162,6 @@ for free in python3.13t python3.14t; do # without the GIL
     expect 0 "and does the same" "$scratch/$free/bin/python" -m unittest discover -s python/tests
     expect 0 "without the GIL" "$scratch/$free/bin/python" -c 'import sys, wiggly; sys.exit(sys._is_gil_enabled())'
 done
-expect 0 "a source distribution is made" bash -c "cd python && '$place/bin/python' -m hatchling build -t sdist -d '$scratch'"
+expect 0 "a source distribution is made" hatch sdist
 expect 0 "and installs with a C compiler" "${pip[@]}" "$scratch"/wiggly-*.tar.gz
 expect 0 "and does the same, too" "$scratch/venv/bin/python" -m unittest discover -s python/tests
