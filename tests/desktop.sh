@@ -7,10 +7,8 @@ at_end() { kill $app $server 2>/dev/null; wait 2>/dev/null; }
 
 # Tries a command until it succeeds.
 eventually() { # <what> <command>...
-    local what=$1 tries
-    shift
-    for tries in $(seq 1200); do "$@" && break; sleep 0.05; done
-    ok "$what" $((tries == 1200))
+    await "${@:2}"
+    ok "$1" $?
 }
 
 stop_server() {
@@ -42,10 +40,9 @@ start_app() { # <title> [argument]...
 }
 
 # Waits for the app's own end; its exit status is in $status.
+ended() { ! kill -0 $app 2>/dev/null; }
 await_end() {
-    local tries
-    for tries in $(seq 1200); do kill -0 $app 2>/dev/null || break; sleep 0.05; done
-    [ "$tries" -lt 1200 ] || kill $app
+    await ended || kill $app
     status=0
     wait $app || status=$?
     app=""

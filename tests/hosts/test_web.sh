@@ -41,7 +41,7 @@ if needs node; then
     mkdir -p "$scratch/native" "$scratch/wasm"
     for replay in tests/replays/*.replay; do
         name=$(basename "$replay" .replay)
-        case $name in pins) scene=assets/scenes/hands.json ;; walk) scene=assets/models/dog.glb ;; *) scene=tests/replays/$name.json ;; esac
+        case $name in pull) scene=assets/scenes/tail.json ;; pins) scene=assets/scenes/hands.json ;; walk) scene=assets/models/dog.glb ;; *) scene=tests/replays/$name.json ;; esac
         echo "live --no-draw --replay $replay $scene --result OUT/$name.json"
     done >"$scratch/commands"
     grep -l '"wiggly"' assets/scenes/*.json tests/vectors/*.json | sed -E 's|.*/(.*)\.json|solve & -o OUT/\1.csv|' >>"$scratch/commands"
