@@ -1,27 +1,143 @@
-/// What commands say and refuse, a row for each: options, what they read, what they would write over.
-#include "command.h"
+/// What commands say and refuse, a row for each: options, what they read, what they would write over. And the table of options itself.
+#include "folder.h"
 
+#include "commands/commands.h"
+#include "commands/options.h"
 #include <dirent.h>
+#include <ftw.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 enum { LINE = 4096 };
+#define COUNT(rows) (sizeof(rows) / sizeof *(rows))
 
-static void copy(const char *name, const char *from, const char *text, const char *by)
+static const struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+} commands[] = {{"live", command_live},       {"solve", command_solve}, {"rig", command_rig},
+                {"export", command_export},   {"check", command_check}, {"simulate", command_simulate},
+                {"analyze", command_analyze}, {"log", command_log}};
+
+/// What the last child has said.
+static struct {
+    int status;              ///< its exit status; −1 if a signal ended it
+    char out[1 << 17], *err; ///< standard output and, in the same storage, standard error
+} command;
+
+/// A command line without `wiggly`, its words apart by one space.
+static int call(const char *line)
 {
-    char *data, *at;
+    char *words[256], *own = strdup(line);
+    int count = 0;
+    for (char *word; (word = strsep(&own, " "));) words[count++] = word;
+    words[count] = NULL;
+    for (size_t i = 0; i < COUNT(commands); i++)
+        if (strcmp(words[0], commands[i].name) == 0) return commands[i].run(count, words);
+    return -1;
+}
+
+/// Calls it in a child whose working folder is the test's.
+static void run(int (*called)(const char *line), const char *line)
+{
+    const int files[] = {memfd_create("out", 0), memfd_create("err", 0)};
+    int status;
+    char *text = command.out;
+    fflush(NULL);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        dup2(files[0], STDOUT_FILENO);
+        dup2(files[1], STDERR_FILENO);
+        signal(SIGXFSZ, SIG_IGN);
+        file_guard_reads(true);
+        exit(chdir(folder) == 0 ? called(line) : 99);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    command.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    for (int i = 0; i < 2; i++) {
+        const ssize_t size = pread(files[i], text, (size_t)(command.out + sizeof command.out - text - 1), 0);
+        assert_true(size >= 0);
+        if (i == 1) command.err = text;
+        text += size;
+        *text++ = '\0';
+        close(files[i]);
+    }
+}
+
+static FILE *listing;
+
+static int list(const char *path, const struct stat *about, int type, struct FTW *at)
+{
+    (void)type, (void)at;
+    return fprintf(listing, "%s %lu %lo %ld %ld.%ld\n", path, (unsigned long)about->st_ino,
+                   (unsigned long)about->st_mode, (long)about->st_size, (long)about->st_mtim.tv_sec,
+                   (long)about->st_mtim.tv_nsec) < 0;
+}
+
+/// A text that tells whether anything in the folder was changed. The caller frees it.
+static char *list_folder(void)
+{
+    char *text;
+    size_t size;
+    listing = open_memstream(&text, &size);
+    assert_int_equal(nftw(folder, list, 8, FTW_PHYS), 0);
+    fclose(listing);
+    return text;
+}
+
+/// The text has each part of `parts`, which are apart by "|".
+static bool has(const char *text, const char *parts)
+{
+    char all[512], *rest = all;
+    assert_true((size_t)snprintf(all, sizeof all, "%s", parts) < sizeof all);
+    for (char *part; (part = strsep(&rest, "|"));)
+        if (!strstr(text, part)) return false;
+    return true;
+}
+
+/// The command ends so and says this. One that fails says one line, on stderr, and leaves the folder as it is.
+static void expect(int status, const char *line, const char *says)
+{
+    char *before = status ? list_folder() : NULL;
+    run(call, line);
+    char *after = status ? list_folder() : NULL;
+    if (command.status != status)
+        fail_msg("wiggly %s: exit status %d, expected %d\n%s%s", line, command.status, status, command.out,
+                 command.err);
+    if (!has(command.err, says) && (status != 0 || !has(command.out, says)))
+        fail_msg("wiggly %s: \"%s\" is not in:\n%s%s", line, says, command.out, command.err);
+    if (strchr(command.err, '\x1b')) fail_msg("wiggly %s: a control character is printed", line);
+    if (status != 0 && strchr(command.err, '\n') != strrchr(command.err, '\n'))
+        fail_msg("wiggly %s: more than a line:\n%s", line, command.err);
+    if (status != 0 && strcmp(before, after) != 0) fail_msg("wiggly %s: changes\n%sto\n%s", line, before, after);
+    free(before);
+    free(after);
+}
+
+/// The same, of lines with a %s.
+static void expect_each(int status, const char *format, const char *says_format, const char *word)
+{
+    char line[128], says[128];
+    snprintf(line, sizeof line, format, word, word);      // NOLINT
+    snprintf(says, sizeof says, says_format, word, word); // NOLINT
+    expect(status, line, says);
+}
+
+static void copy(const char *name, const char *from, size_t most)
+{
+    char *data;
     size_t size;
     assert_done(file_read(from, 1 << 24, &data, &size, &error));
-    if (text && (at = strstr(data, text))) {
-        char *changed = malloc(size + strlen(by) + 1);
-        size = (size_t)sprintf(changed, "%.*s%s%s", (int)(at - data), data, by, at + strlen(text));
-        free(data);
-        data = changed;
-    }
-    assert_done(file_write_atomic(folder_path(name), data, size, &error));
+    assert_done(file_write_atomic(folder_path(name), data, size < most ? size : most, &error));
     free(data);
 }
 
 #define BOX_VERTICES "v 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 2 0\nv 1 2 0\nv 1 2 1\nv 0 2 1\n"
 #define BOX_FACES "f 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n"
+#define BOX "v 0 0 0\n" BOX_VERTICES BOX_FACES
 #define THREE(file)                                                                                                  \
     "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"uri\": \"" file "\", \"byteLength\": 36}], "               \
     "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}], \"accessors\": [{\"bufferView\": 0, "                   \
@@ -37,9 +153,9 @@ static void copy(const char *name, const char *from, const char *text, const cha
 static const struct {
     const char *name, *text;
 } files[] = {
-    {"box.obj", "v 0 0 0\n" BOX_VERTICES BOX_FACES},
-    {"rest.obj", "v 0 0 0\n" BOX_VERTICES BOX_FACES},
-    {"cube.rest.obj", "v 0 0 0\n" BOX_VERTICES BOX_FACES},
+    {"box.obj", BOX},
+    {"rest.obj", BOX},
+    {"cube.rest.obj", BOX},
     {"bright.obj", "v 0 0 0 1e30 0 0\n" BOX_VERTICES BOX_FACES},
     {"four.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n"},
     {"flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n"},
@@ -60,182 +176,208 @@ static const struct {
     {"names.json", // frames before zero and between frames, few digits and many
      "{\"frames\": [-1, 0], \"substeps\": 3, \"splines\": [{\"name\": \"a,b\", \"mode\": \"cubic\", \"knots\": "
      "[{\"frame\": 0, \"value\": 0.1}]}, {\"name\": \"say \\\"hi\\\"\", \"mode\": \"cubic\"}, {\"name\": "
-     "\"two\\nlines\", "
-     "\"mode\": \"cubic\"}]}"},
-    {"loose.json",
-     "{\"frames\": [0, 48], \"splines\": [{\"name\": \"loose\", \"frequency\": 1, \"calm\": 0, \"knots\": "
-     "[{\"frame\": 0, \"value\": 0}, {\"frame\": 24, \"value\": 1}]}]}"},
+     "\"two\\nlines\", \"mode\": \"cubic\"}]}"},
+    {"loose.json", "{\"frames\": [0, 48], \"splines\": [{\"name\": \"loose\", \"frequency\": 1, \"calm\": 0, "
+                   "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 24, \"value\": 1}]}]}"},
     {"pinned.json",
      "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"limits\": [-1, 1], \"knots\": "
      "[{\"frame\": 0, \"value\": 0}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\", "
      "\"pins\": [{\"frame\": 20, \"joint\": 23, \"to\": [0, 9, 0]}]}]}"},
-    {"sunk.json",
-     "{\"frames\": [0, 24], \"splines\": [{\"name\": \"up\", \"frequency\": 1, \"knots\": [{\"frame\": 0, \"value\": "
-     "0}, {\"frame\": 20, \"value\": -8}]}], \"rigs\": [{\"type\": \"character\", \"name\": \"soft\", \"model\": "
-     "\"assets/models/creature.glb\", \"floor\": 0, \"coordinates\": [{\"name\": \"up\", \"spline\": \"up\", "
-     "\"amplitude\": 4}]}]}"},
+    {"sunk.json", "{\"frames\": [0, 24], \"splines\": [{\"name\": \"up\", \"frequency\": 1, \"knots\": [{\"frame\": "
+                  "0, \"value\": 0}, {\"frame\": 20, \"value\": -8}]}], \"rigs\": [{\"type\": \"character\", "
+                  "\"name\": \"soft\", \"model\": \"assets/models/creature.glb\", \"floor\": 0, \"coordinates\": "
+                  "[{\"name\": \"up\", \"spline\": \"up\", \"amplitude\": 4}]}]}"},
     {"tiny.npy", "no"},
     {"broken.simulation.json", "{\"fps\": 0}"},
     {"a.FBX", "Kaydara FBX Binary"},
     {"hello.replay", "hello\n"},
     {"other.replay", "wiggly-replay 1\nsize 640 480\nscale 1\nscene 1\nframes 2\n"},
     {"old.csv", "old"},
+    {"there.csv", ""},
 };
 
 #define QUICK "--tets 60 --seconds 0.25 --fps 24 --substeps 2 "
+#define SOFT(map) "simulate box.obj --soft " map " " QUICK "-o x.npy"
 #define BLIND "live --no-draw --frames 2 "
 #define DRAWN "live --headless --frames 2 "
 #define OVER(input) "cannot be written, because it is read as " input
+#define UNREAD_PIPE "pipe.csv: cannot be written: it is a pipe that nobody reads"
+#define NO_FILE "expected a file, got something else (a device or a pipe)"
+#define FBX "a.FBX: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it"
 
-/// An .npy array of float32; one of so many bytes.
-static void write_map(const char *name, const char *shape, const float *numbers, size_t bytes)
-{
-    char text[256], about[118];
-    snprintf(about, sizeof about, "{'descr': '<f4', 'fortran_order': False, 'shape': %s, }", shape);
-    snprintf(text, sizeof text, "\x93NUMPY\x01%c\x76%c%-117s\n", 1, 1, about);
-    text[7] = text[9] = 0;
-    memcpy(text + 128, numbers, bytes);
-    assert_done(file_write_atomic(folder_path(name), text, 128 + bytes, &error));
-}
+static const float half[] = {.5f, .5f, .5f, .5f, .5f, .5f, .5f, .5f, .5f}, above[8] = {2},
+                   below[] = {0, 0, 0, 0, 0, 0, 0, -.5f}, wild[] = {0, 0, 0, 0, 0, 0, 0, NAN};
+
+/// .npy arrays of float32; so many bytes of them.
+static const struct {
+    const char *name, *shape;
+    const float *numbers;
+    size_t bytes;
+} maps[] = {
+    {"map.npy", "(8,)", half, 32},    {"short.npy", "(8,)", half, 24},
+    {"long.npy", "(9,)", half, 36},   {"huge.npy", "(8, 4611686018427387904)", half, 32},
+    {"wild.npy", "(8,)", wild, 32},   {"above.npy", "(8, 1)", above, 32},
+    {"below.npy", "(8,)", below, 32},
+};
+
+static const char *const links[][2] = {
+    {"s.json", "soft.csv"}, {".", "here"}, {"dog.glb", "walk.glb"}, {"/dev/full", "full"}, {"there.csv", "link.csv"}};
 
 static int open_folder(void **state)
 {
     static const char zeros[36];
     static const char *const binary[] = {"three.bin", "w-0002.png", "sub/frame_00000.png"};
-    static const char *const links[][2] = {{"s.json", "soft.csv"},
-                                           {".", "here"},
-                                           {"dog.glb", "walk.glb"},
-                                           {"/dev/full", "full"},
-                                           {"there.csv", "link.csv"}};
-    char place[256];
-    const float half[9] = {.5f, .5f, .5f, .5f, .5f, .5f, .5f, .5f, .5f};
-    const float above[8] = {2}, below[8] = {0, 0, 0, 0, 0, 0, 0, -.5f}, wild[8] = {0, 0, 0, 0, 0, 0, 0, NAN};
+    static const char *const pipes[] = {"pipe.csv", "pipe.gif", "pipe.json"};
+    char text[PATH_LIMIT], place[PATH_LIMIT - 16], about[118], *dog;
+    size_t size;
     if (folder_make(state) != 0 || mkdir(folder_path("sub"), 0700) != 0 || !getcwd(place, sizeof place)) return -1;
     for (int i = 0; i < 2; i++) { // what the rows name as from the root of the tree
-        char from[300];
-        snprintf(from, sizeof from, "%s/%s", place, i ? "tests" : "assets");
-        assert_int_equal(symlink(from, folder_path(i ? "tests" : "assets")), 0);
+        snprintf(text, sizeof text, "%s/%s", place, i ? "tests" : "assets");
+        assert_int_equal(symlink(text, folder_path(i ? "tests" : "assets")), 0);
     }
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) folder_file(files[i].name, files[i].text);
+    for (size_t i = 0; i < COUNT(files); i++) folder_file(files[i].name, files[i].text);
     for (int i = 0; i < 3; i++) assert_done(file_write_atomic(folder_path(binary[i]), zeros, 36, &error));
-    copy("s.json", "assets/scenes/tail.json", NULL, NULL);
-    copy("dog.json", "assets/scenes/dog.json", "../models/dog.glb", "dog.glb");
-    copy("dog.glb", "assets/models/dog.glb", NULL, NULL);
-    folder_file("there.csv", "");
-    for (size_t i = 0; i < sizeof links / sizeof *links; i++)
-        assert_int_equal(symlink(links[i][0], folder_path(links[i][1])), 0);
+    copy("s.json", "assets/scenes/tail.json", SIZE_MAX);
+    copy("dog.glb", "assets/models/dog.glb", SIZE_MAX);
+    copy("cut.glb", "assets/models/dog.glb", 5000);
+    assert_done(file_read("assets/scenes/dog.json", 1 << 24, &dog, &size, &error));
+    char *model = strstr(dog, "../models/dog.glb");
+    memmove(model, model + strlen("../models/"), strlen(model + strlen("../models/")) + 1);
+    folder_file("dog.json", dog);
+    free(dog);
+    for (size_t i = 0; i < COUNT(links); i++) assert_int_equal(symlink(links[i][0], folder_path(links[i][1])), 0);
     assert_int_equal(link(folder_path("s.json"), folder_path("hard.csv")), 0);
     assert_int_equal(link(folder_path("there.csv"), folder_path("twin.csv")), 0);
-    for (int i = 0; i < 3; i++) {
-        static const char *const pipes[] = {"pipe.csv", "pipe.gif", "pipe.json"};
-        assert_int_equal(mkfifo(folder_path(pipes[i]), 0600), 0);
+    for (int i = 0; i < 3; i++) assert_int_equal(mkfifo(folder_path(pipes[i]), 0600), 0);
+    for (size_t i = 0; i < COUNT(maps); i++) {
+        snprintf(about, sizeof about, "{'descr': '<f4', 'fortran_order': False, 'shape': %s, }", maps[i].shape);
+        snprintf(text, sizeof text, "\x93NUMPY\x01%c\x76%c%-117s\n", 1, 1, about);
+        text[7] = text[9] = 0;
+        memcpy(text + 128, maps[i].numbers, maps[i].bytes);
+        assert_done(file_write_atomic(folder_path(maps[i].name), text, 128 + maps[i].bytes, &error));
     }
-    write_map("map.npy", "(8,)", half, 32);
-    write_map("short.npy", "(8,)", half, 24);
-    write_map("long.npy", "(9,)", half, 36);
-    write_map("huge.npy", "(8, 4611686018427387904)", half, 32);
-    write_map("wild.npy", "(8,)", wild, 32);
-    write_map("above.npy", "(8, 1)", above, 32);
-    write_map("below.npy", "(8,)", below, 32);
     assert_done(file_write_atomic(folder_path("endless.npy"), "\x93NUMPY\1\0\xff\xff{ and no more", 23, &error));
     assert_done(file_write_atomic(folder_path("header.npy"), "\x93NUMPY\1\0\x76\0{ and no more", 23, &error));
-    assert_command(0, "simulate rest.obj --tets 60 --seconds 2 --fps 30 --substeps 2 --drive none -o up.npy",
-                   "up.npy: 60 frames");
-    copy("up.rest.obj", folder_path("rest.obj"), NULL, NULL);
-    copy("broken.npy", folder_path("up.npy"), NULL, NULL);
-    copy("found.npy", folder_path("up.npy"), NULL, NULL);
-    copy("cut.npy", folder_path("up.npy"), NULL, NULL);
-    assert_int_equal(truncate(folder_path("cut.npy"), 1000), 0);
-    copy("cut.glb", folder_path("dog.glb"), NULL, NULL);
-    assert_int_equal(truncate(folder_path("cut.glb"), 5000), 0);
-    assert_command(0, "live --no-draw --frames 2 --record r.replay s.json", "");
+    expect(0, "simulate rest.obj --tets 60 --seconds 2 --fps 30 --substeps 2 --drive none -o up.npy",
+           "up.npy: 60 frames");
+    copy("up.rest.obj", folder_path("rest.obj"), SIZE_MAX);
+    copy("broken.npy", folder_path("up.npy"), SIZE_MAX);
+    copy("found.npy", folder_path("up.npy"), SIZE_MAX);
+    copy("cut.npy", folder_path("up.npy"), 1000);
+    expect(0, BLIND "--record r.replay s.json", "");
     return 0;
 }
 
 TESTS_BETWEEN(open_folder, folder_remove)
 
-static const char *const names[] = {"live", "solve", "rig", "export", "check", "simulate", "analyze", "log"};
-
 TEST(every_command_has_help_and_names_the_nearest_option)
 {
-    char line[64], usage[64];
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        snprintf(line, sizeof line, "%s --help", names[i]);
-        snprintf(usage, sizeof usage, "Usage: wiggly %s", names[i]);
-        assert_command(0, line, usage);
-        snprintf(line, sizeof line, "%s --hlep", names[i]);
-        assert_command(2, line, "unknown option --hlep (did you mean --help?)");
+    for (size_t i = 0; i < COUNT(commands); i++) {
+        expect_each(0, "%s --help", "Usage: wiggly %s", commands[i].name);
+        expect_each(2, "%s --hlep", "unknown option --hlep (did you mean --help?)", commands[i].name);
     }
-    assert_command(0, "live --help", "--ui-scale");
+    expect(0, "live --help", "--ui-scale");
     assert_null(strstr(command.out, "--replay"));
-    assert_command(0, "live --help-all", "--replay");
+    expect(0, "live --help-all", "--replay");
+}
+
+static const struct {
+    const char *option, *below, *least, *most, *above;
+} ranges[] = {
+    {"live --frames", "0", "1", "10000000", "10000001"},
+    {"live --size", "319x320", "320x320", "8192x8192", "8192x8193"},
+    {"live --scale", "0.49999", "0.5", "4", "4.00001"},
+    {"live --ui-scale", "0.7499", "0.75", "3", "3.001"},
+    {"export --fps", "0.00099", "0.001", "100000", "100000.1"},
+    {"export --substeps", "0", "1", "1024", "1025"},
+    {"export --size", "15x16", "16x16", "8192x8192", "8193x16"},
+    {"export --loops", "0", "1", "10000", "10001"},
+    {"rig --frequency", "0.00099", "0.001", "1000", "1000.1"},
+    {"rig --damping", "0", "0.000001", "1", "1.00001"},
+    {"analyze --fps", "0.00099", "0.001", "100000", "100000.1"},
+    {"analyze --modes", "0", "1", "8", "9"},
+    {"analyze --from", "-0.1", "0", "1000000", "1000001"},
+    {"simulate --scale", "9e-10", "1e-09", "1000000000", "1000000001"},
+    {"simulate --amplitude", "-2.01", "-2", "2", "2.01"},
+    {"simulate --drive-frequency", "0.00099", "0.001", "1000", "1000.1"},
+    {"simulate --seconds", "0.00099", "0.001", "3600", "3600.1"},
+    {"simulate --fps", "0.99", "1", "1000", "1000.1"},
+    {"simulate --accuracy", "0.000099", "0.0001", "1", "1.01"},
+    {"simulate --substeps", "0", "1", "1000", "1001"},
+    {"simulate --tets", "49", "50", "200000", "200001"},
+    {"simulate --frequency", "0.00099", "0.001", "1000", "1000.1"},
+    {"simulate --softness", "0.00099", "0.001", "1000", "1000.1"},
+    {"simulate --poisson", "-0.01", "0", "0.49", "0.4901"},
+    {"simulate --damping", "-0.01", "0", "1", "1.01"},
+    {"simulate --gravity", "-0.1", "0", "10000", "10000.1"},
+    {"simulate --floor", "-0.1", "0", "1000000", "1000001"},
+    {"simulate --modal", "0", "1", "200", "201"},
+};
+
+/// Calls a line again and again; returns 1 and says what is wrong unless each is refused with these words.
+static int refuse(const char *line, const char *says)
+{
+    char text[512];
+    assert_int_equal(ftruncate(STDERR_FILENO, 0), 0);
+    lseek(STDERR_FILENO, 0, SEEK_SET);
+    const int status = call(line);
+    fflush(stderr);
+    const ssize_t size = pread(STDERR_FILENO, text, sizeof text - 1, 0);
+    text[size > 0 ? size : 0] = '\0';
+    if (status == 2 && strstr(text, says) && strchr(text, '\n') == strrchr(text, '\n')) return 0;
+    printf("wiggly %s: exit status %d, and \"%s\" is not in:\n%s", line, status, says, text);
+    return 1;
 }
 
 /// The ends of a range are taken (then the option behind is what is wrong), what lies beyond is not.
+static int try_range(const char *row)
+{
+    const size_t i = strtoul(row, NULL, 10);
+    const char *const values[] = {
+        ranges[i].least, ranges[i].most, ranges[i].below, ranges[i].above, "nan", "inf", "1e999", "", "1,5"};
+    char line[128], says[64];
+    int wrong = 0;
+    for (int v = 0; v < 9; v++) {
+        snprintf(line, sizeof line, "%s=%s --nonsense", ranges[i].option, values[v]);
+        snprintf(says, sizeof says, "%s: expected", strchr(ranges[i].option, ' ') + 1);
+        wrong |= refuse(line, v < 2 ? "--nonsense" : says);
+    }
+    return wrong;
+}
+
 TEST(ranges_of_options)
 {
-    static const struct {
-        const char *option, *below, *least, *most, *above;
-    } rows[] = {
-        {"live --frames", "0", "1", "10000000", "10000001"},
-        {"live --size", "319x320", "320x320", "8192x8192", "8192x8193"},
-        {"live --scale", "0.49999", "0.5", "4", "4.00001"},
-        {"live --ui-scale", "0.7499", "0.75", "3", "3.001"},
-        {"export --fps", "0.00099", "0.001", "100000", "100000.1"},
-        {"export --substeps", "0", "1", "1024", "1025"},
-        {"export --size", "15x16", "16x16", "8192x8192", "8193x16"},
-        {"export --loops", "0", "1", "10000", "10001"},
-        {"rig --frequency", "0.00099", "0.001", "1000", "1000.1"},
-        {"rig --damping", "0", "0.000001", "1", "1.00001"},
-        {"analyze --fps", "0.00099", "0.001", "100000", "100000.1"},
-        {"analyze --modes", "0", "1", "8", "9"},
-        {"analyze --from", "-0.1", "0", "1000000", "1000001"},
-        {"simulate --scale", "9e-10", "1e-09", "1000000000", "1000000001"},
-        {"simulate --amplitude", "-2.01", "-2", "2", "2.01"},
-        {"simulate --drive-frequency", "0.00099", "0.001", "1000", "1000.1"},
-        {"simulate --seconds", "0.00099", "0.001", "3600", "3600.1"},
-        {"simulate --fps", "0.99", "1", "1000", "1000.1"},
-        {"simulate --accuracy", "0.000099", "0.0001", "1", "1.01"},
-        {"simulate --substeps", "0", "1", "1000", "1001"},
-        {"simulate --tets", "49", "50", "200000", "200001"},
-        {"simulate --frequency", "0.00099", "0.001", "1000", "1000.1"},
-        {"simulate --softness", "0.00099", "0.001", "1000", "1000.1"},
-        {"simulate --poisson", "-0.01", "0", "0.49", "0.4901"},
-        {"simulate --damping", "-0.01", "0", "1", "1.01"},
-        {"simulate --gravity", "-0.1", "0", "10000", "10000.1"},
-        {"simulate --floor", "-0.1", "0", "1000000", "1000001"},
-        {"simulate --modal", "0", "1", "200", "201"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *const values[] = {rows[i].least, rows[i].most, rows[i].below, rows[i].above, "nan", "inf",
-                                      "1e999",       "",           "1,5"};
-        for (int v = 0; v < 9; v++) {
-            char line[128], says[64];
-            snprintf(line, sizeof line, "%s=%s --nonsense", rows[i].option, values[v]);
-            snprintf(says, sizeof says, "%s: expected", strchr(rows[i].option, ' ') + 1);
-            assert_command(2, line, v < 2 ? "--nonsense" : says);
-        }
+    char *before = list_folder(), row[32];
+    for (size_t i = 0; i < COUNT(ranges); i++) {
+        snprintf(row, sizeof row, "%zu", i);
+        run(try_range, row);
+        if (command.status != 0) fail_msg("%s%s", command.out, command.err);
     }
+    char *after = list_folder();
+    assert_string_equal(after, before);
+    free(before);
+    free(after);
 }
 
 /// Chains of a rig, and motions of an analysis.
 TEST(options_that_are_given_many_times)
 {
+    static const struct {
+        const char *command, *again, *end, *taken, *refused;
+        int most;
+    } many[] = {{"rig", " --chain a:b", " --nonsense", "--nonsense", "at most 32 times", 32},
+                {"analyze --rest mesh.obj", " motion.npy", "", "-o creature.glb", "motion.npy", 16}};
     char line[LINE];
-    for (int times = 31; times <= 33; times++) {
-        int n = sprintf(line, "rig");
-        for (int i = 0; i < times; i++) n += sprintf(line + n, " --chain a:b");
-        sprintf(line + n, " --nonsense");
-        assert_command(2, line, times > 32 ? "at most 32 times" : "--nonsense");
-    }
-    for (int times = 15; times <= 17; times++) {
-        int n = sprintf(line, "analyze --rest mesh.obj");
-        for (int i = 0; i < times; i++) n += sprintf(line + n, " motion.npy");
-        assert_command(2, line, times > 16 ? "motion.npy" : "-o creature.glb");
+    for (int i = 0; i < 6; i++) {
+        const int times = many[i / 3].most - 1 + i % 3;
+        int n = sprintf(line, "%s", many[i / 3].command);
+        for (int k = 0; k < times; k++) n += sprintf(line + n, "%s", many[i / 3].again);
+        strcpy(line + n, many[i / 3].end);
+        expect(2, line, times > many[i / 3].most ? many[i / 3].refused : many[i / 3].taken);
     }
 }
 
-static const struct row {
+static const struct {
     int status;
     const char *line, *says;
 } rows[] = {
@@ -251,16 +393,15 @@ static const struct row {
     {1, BLIND "missing.json", "missing.json: cannot be opened"},
     {1, BLIND "three.bin", "three.bin"},
     {1, BLIND "pipe.json", "pipe.json: expected a file, got something else"},
-    {1, BLIND "a.FBX",
-     "a.FBX: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it"},
+    {1, BLIND "a.FBX", FBX},
     {1, "live --no-draw --replay none.replay s.json", "none.replay"},
     {1, "live --no-draw --replay hello.replay s.json", "hello.replay:1: expected \"wiggly-replay 1\", got \"hello\""},
     {1, "live --no-draw --replay other.replay s.json", "recorded on another scene"},
     {3, BLIND "--log no/live.csv", "no/live.csv"},
-    {3, BLIND "--log pipe.csv s.json", "pipe.csv: cannot be written: it is a pipe that nobody reads"},
-    {3, BLIND "--record pipe.csv s.json", "pipe.csv: cannot be written: it is a pipe that nobody reads"},
-    {3, BLIND "--result pipe.csv s.json", "pipe.csv: cannot be written: it is a pipe that nobody reads"},
-    {3, DRAWN "--screenshot pipe.csv s.json", "pipe.csv: cannot be written: it is a pipe that nobody reads"},
+    {3, BLIND "--log pipe.csv s.json", UNREAD_PIPE},
+    {3, BLIND "--record pipe.csv s.json", UNREAD_PIPE},
+    {3, BLIND "--result pipe.csv s.json", UNREAD_PIPE},
+    {3, DRAWN "--screenshot pipe.csv s.json", UNREAD_PIPE},
     {2, "live --frames \x1b[31m", "got '\\x1b[31m'"}, // nothing of a terminal's own
     // solve, check and log
     {2, "solve", "scene.json"},
@@ -271,7 +412,7 @@ static const struct row {
     {1, "solve bad.json -o old.csv", "bad.json:1: "},
     {3, "solve c.json -o no/out.csv", "no/out.csv"},
     {3, "solve c.json -o full", "full: cannot be written: No space left on device"},
-    {3, "solve c.json -o pipe.csv", "it is a pipe that nobody reads"},
+    {3, "solve c.json -o pipe.csv", UNREAD_PIPE},
     {0, "solve none.json", "frame\n0\n1\n"},
     {0, "solve names.json", // quotes as RFC 4180 wants
      "frame,\"a,b\",\"a,b.re\",\"a,b.im\",\"say \"\"hi\"\"\",\"say \"\"hi\"\".re\",\"say "
@@ -279,14 +420,14 @@ static const struct row {
      "lines.im\"\n-1,0.10000000000000001,0.10000000000000001,0,0,0,0,0,0,0\n-0.6666666666666667,"},
     {0, "solve loose.json", "\"loose\": "},
     {0, "check loose.json", "warning: "},
-    {0, "check pinned.json", "pinned.json: rigs[0].pins[0]: the point stays 9."},
-    {0, "check pinned.json", "splines[0].limits: ignored, because pins or a floor move this spline"},
+    {0, "check pinned.json",
+     "pinned.json: rigs[0].pins[0]: the point stays 9.|splines[0].limits: ignored, because pins or a floor move this "
+     "spline"},
     {0, "solve pinned.json", "warning: rigs[0].pins[0]: the point stays 9."},
     {0, "check sunk.json", "sunk.json: rigs[0].floor: knots and pins hold the character up to "},
     {0, "check tests/vectors/loop_moving_equilibrium.json",
      "the equilibrium of this loop does not end where it starts"},
-    {1, "check a.FBX",
-     "a.FBX: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it"},
+    {1, "check a.FBX", FBX},
     {2, "log", "FILE.csv"},
     {1, "log none.csv", "none.csv"},
     {1, "log c.json", "c.json:1: expected a timing log's '# schema:' line first"},
@@ -305,10 +446,8 @@ static const struct row {
     {1, "export s.json -o x.gif --fps 51", "expected at most 50 pictures a second in a .gif file, got 51"},
     {3, "export s.json -o no/x.glb", "no/x.glb: cannot be written"},
     {3, "export s.json --frames 0:1 --size 64x36 -o no/x.png", "no/x.png: cannot be written"},
-    {3, "export s.json --frames 0:1 --size 64x36 -o pipe.csv",
-     "expected a file, got something else (a device or a pipe)"},
-    {3, "export s.json --frames 0:1 --size 64x36 -o pipe.gif",
-     "expected a file, got something else (a device or a pipe)"},
+    {3, "export s.json --frames 0:1 --size 64x36 -o pipe.csv", NO_FILE},
+    {3, "export s.json --frames 0:1 --size 64x36 -o pipe.gif", NO_FILE},
     // at the limit it is the folder that is wrong
     {3, "export keys.json --fps 1111 -o no/x.csv", "no/x.csv: cannot be written"},
     {1, "export keys.json --fps 1111.00002 -o no/x.csv", "at most 100000000 keys, got 100000001"},
@@ -318,7 +457,7 @@ static const struct row {
     {1, "rig assets/models/creature.glb", "creature.glb: expected a character with bones, got a soft one"},
     {1, "rig none.glb", "none.glb"},
     {1, "rig cut.glb", "cut.glb"},
-    {1, "rig a.FBX", "a.FBX: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it"},
+    {1, "rig a.FBX", FBX},
     {1, "rig dog.glb --chain wing -o x.json", "expected a bone called \"wing\", got none"},
     {1, "rig dog.glb --chain chest -o x.json", "\"chest\" branches into"},
     {1, "rig dog.glb --clip Fly --chain tail_1 -o x.json", "expected a clip called \"Fly\""},
@@ -332,25 +471,19 @@ static const struct row {
     // simulate
     {2, "simulate box.obj --pin round -o x.npy", "--pin: expected a height, none, plane:"},
     {1, "simulate box.obj --soft paper -o x.npy", "paper: cannot be opened"},
-    {1, "simulate box.obj --soft color " QUICK "-o x.npy", "--soft color: expected colours of vertices, got none"},
+    {1, SOFT("color"), "--soft color: expected colours of vertices, got none"},
     {1, "simulate bright.obj " QUICK "-o x.npy", "bright.obj:1: expected a colour from 0 to 1, got 1e+30"},
-    {1, "simulate box.obj --soft short.npy " QUICK "-o x.npy",
-     "short.npy: expected 8 numbers, got a file that ends before"},
-    {1, "simulate box.obj --soft long.npy " QUICK "-o x.npy",
-     "long.npy: expected an array of 8 numbers, one a vertex"},
-    {1, "simulate box.obj --soft huge.npy " QUICK "-o x.npy",
-     "huge.npy: expected an array of 8 numbers, one a vertex"},
-    {1, "simulate box.obj --soft wild.npy " QUICK "-o x.npy",
-     "wild.npy: vertex 7: expected a number from 0 to 1, got nan"},
-    {1, "simulate box.obj --soft above.npy " QUICK "-o x.npy",
-     "above.npy: vertex 0: expected a number from 0 to 1, got 2"},
-    {1, "simulate box.obj --soft below.npy " QUICK "-o x.npy",
-     "below.npy: vertex 7: expected a number from 0 to 1, got -0.5"},
-    {1, "simulate box.obj --soft endless.npy " QUICK "-o x.npy", "endless.npy: expected the header of an .npy array"},
-    {1, "simulate box.obj --soft header.npy " QUICK "-o x.npy", "header.npy: expected a header of 128 bytes, got 23"},
-    {1, "simulate box.obj --soft tiny.npy " QUICK "-o x.npy", "tiny.npy: expected a .npy file"},
-    {1, "simulate box.obj --soft box.obj " QUICK "-o x.npy", "box.obj: expected"},
-    {1, "simulate box.obj --soft nowhere.npy " QUICK "-o x.npy", "nowhere.npy: cannot be opened"},
+    {1, SOFT("short.npy"), "short.npy: expected 8 numbers, got a file that ends before"},
+    {1, SOFT("long.npy"), "long.npy: expected an array of 8 numbers, one a vertex"},
+    {1, SOFT("huge.npy"), "huge.npy: expected an array of 8 numbers, one a vertex"},
+    {1, SOFT("wild.npy"), "wild.npy: vertex 7: expected a number from 0 to 1, got nan"},
+    {1, SOFT("above.npy"), "above.npy: vertex 0: expected a number from 0 to 1, got 2"},
+    {1, SOFT("below.npy"), "below.npy: vertex 7: expected a number from 0 to 1, got -0.5"},
+    {1, SOFT("endless.npy"), "endless.npy: expected the header of an .npy array"},
+    {1, SOFT("header.npy"), "header.npy: expected a header of 128 bytes, got 23"},
+    {1, SOFT("tiny.npy"), "tiny.npy: expected a .npy file"},
+    {1, SOFT("box.obj"), "box.obj: expected"},
+    {1, SOFT("nowhere.npy"), "nowhere.npy: cannot be opened"},
     {1, "simulate flag.obj --up z --thickness 0.1 " QUICK "-o x.npy",
      "nothing can move: all of it is in the region of --pin"},
     {1, "simulate flat.obj -o x.npy",
@@ -433,13 +566,10 @@ static const struct row {
     {0, "export s.json -o t.csv --frames 24:48 --substeps 2", "49 rows"},
     {0, "export dog.json -o dog.usda --substeps 1", "97 keys, 1 texture in dog_textures, "},
     {0, "export assets/scenes/character.json -o soft.glb --frames 0:4", " morph targets, 5 keys"},
-    {0, "rig dog.glb", "Walk (1 s, loops)"},
-    {0, "rig dog.glb", "          tail_3"}, // under its parent
-    {0, "rig dog.glb", "chains you can use with --chain:\n"},
-    {0, "rig dog.glb", "  tail_1:tail_8 (8 bones)"},
-    {0, "check dog.glb", "dog.glb: a glTF character of 19816 triangles and 43 joints"},
-    {0, "check dog.glb", "Trot (0.583 s, loops)"},
-    {0, "check dog.glb", "  ear_1_L:ear_4_L (4 bones)"},
+    {0, "rig dog.glb", // a bone under its parent
+     "Walk (1 s, loops)|          tail_3|chains you can use with --chain:\n|  tail_1:tail_8 (8 bones)"},
+    {0, "check dog.glb",
+     "dog.glb: a glTF character of 19816 triangles and 43 joints|Trot (0.583 s, loops)|  ear_1_L:ear_4_L (4 bones)"},
     {0, "rig dog.glb --chain tail_1:tail_8 --chain ear_1_L -c ear_1_R -o d.json", "wrote d.json: 3 chains"},
     {0, "check d.json", ""},
     {0, "rig dog.glb --chain tail_1 --clip Trot -o trot.glb", "wrote trot.glb"},
@@ -450,7 +580,7 @@ static const struct row {
     {0, "rig dog.glb --chain tail_1 --loop -o loop.glb", "clip Walk loops"},
     // but other files, and a new name
     {0, "export dog.json -o other.glb", ""},
-    {0, "export dog.json -o other.glb", ""},
+    {0, "export dog.json -o other.glb --frames 0:1", ""},
     {0, "live --no-draw --replay r.replay --record new.replay s.json", ""},
 };
 
@@ -470,73 +600,67 @@ TEST(what_commands_write)
         {"rig dog.glb --chain ear_1_L --chain ear_1_R --own-splines -o e.json", "e.json", "\"ear_1_R side\"",
          "\"x\""},
     };
-    for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
+    static const char *const endings[] = {"glb", "gltf", "usda", "bvh", "csv", "pc2", "mdd", "npy"};
+    for (size_t i = 0; i < COUNT(made); i++) {
         char *text;
         size_t size;
-        assert_command(0, made[i].line, "wrote");
+        expect(0, made[i].line, "wrote");
         assert_done(file_read(folder_path(made[i].file), 1 << 24, &text, &size, &error));
         if (!strstr(text, made[i].has)) fail_msg("%s lacks %s", made[i].line, made[i].has);
         if (strstr(text, made[i].lacks)) fail_msg("%s has %s", made[i].line, made[i].lacks);
         free(text);
     }
-    static const char *const endings[] = {"glb", "gltf", "usda", "bvh", "csv", "pc2", "mdd", "npy"};
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        char line[64], says[64];
-        snprintf(line, sizeof line, "export s.json -o tail.%s", endings[i]);
-        snprintf(says, sizeof says, "wrote tail.%s: ", endings[i]);
-        assert_command(0, line, says);
-    }
-    assert_command(0, "export s.json -o tail.csv --quiet", "");
+    for (size_t i = 0; i < COUNT(endings); i++)
+        expect_each(0, "export s.json -o tail.%s", "wrote tail.%s: ", endings[i]);
+    expect(0, "export s.json -o tail.csv --quiet", "");
     assert_true(!command.out[0] && !command.err[0]);
 }
 
 TEST(rows_of_commands)
 {
     char line[LINE];
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        assert_command(rows[i].status, rows[i].line, rows[i].says);
+    for (size_t i = 0; i < COUNT(rows); i++) expect(rows[i].status, rows[i].line, rows[i].says);
     snprintf(line, sizeof line, "simulate box.obj --pin 0.%0130d -o x.npy", 1);
-    assert_command(2, line, "--pin: expected fewer than 128 characters");
-    command_run("analyze up.npy -o y.glb --coordinates no/y.csv"); // the character is there by then
+    expect(2, line, "--pin: expected fewer than 128 characters");
+    run(call, "analyze up.npy -o y.glb --coordinates no/y.csv"); // the character is there by then
     assert_int_equal(command.status, 3);
     assert_non_null(strstr(command.err, "no/y.csv: cannot be written"));
 }
 
-/// Each file that the live app writes over each that it reads.
+/// Each file that the live app writes over each that it reads; one picture, for it starts a driver.
 TEST(outputs_of_live_over_its_input)
 {
-    static const char *const options[] = {"--log", "--record", "--result", "--screenshot"};
-    static const char *const inputs[][2] = {
-        {"s.json", "s.json"}, {"dog.glb", "dog.json"}, {"three.bin", "three.json"}};
-    for (int i = 0; i < 4 * 3; i++) {
-        const char *option = options[i % 4], *const *input = inputs[i / 4];
-        char line[128], says[128];
-        snprintf(line, sizeof line, "live --%s --frames 2 %s %s %s", i % 4 == 3 ? "headless" : "no-draw", option,
-                 input[0], input[1]);
-        snprintf(says, sizeof says, "%s: " OVER("%s"), input[0], i / 4 == 0 ? "scene.json" : "");
-        assert_command(2, line, says);
+    static const struct {
+        const char *lines, *says;
+    } inputs[] = {{"%s s.json s.json", "s.json: " OVER("scene.json")},
+                  {"%s dog.glb dog.json", "dog.glb: " OVER("")},
+                  {"%s three.bin three.json", "three.bin: " OVER("")}};
+    static const char *const options[] = {"--log", "--record", "--result"};
+    for (int i = 0; i < 9; i++) {
+        char format[64];
+        snprintf(format, sizeof format, BLIND "%s", inputs[i / 3].lines);
+        expect_each(2, format, inputs[i / 3].says, options[i % 3]);
     }
+    expect(2, DRAWN "--screenshot three.bin three.json", "three.bin: " OVER(""));
 }
 
 /// `wiggly check` says every problem; the scenes of the tree have none.
 TEST(checks_of_scenes)
 {
-    command_run("check bad.json");
+    run(call, "check bad.json");
     assert_int_equal(command.status, 1);
     assert_non_null(strstr(command.out, "bad.json:2: splines[0].name: expected a string, got a number\n"));
     int lines = 0;
     for (const char *c = command.out; *c; c++) lines += *c == '\n';
     assert_int_equal(lines, 3);
-    command_run("check sub"); // a folder
+    run(call, "check sub"); // a folder
     assert_int_equal(command.status, 1);
     DIR *all = opendir("assets/scenes");
     assert_non_null(all);
     for (struct dirent *entry; (entry = readdir(all));) {
-        char line[300];
         if (!strstr(entry->d_name, ".json")) continue;
-        snprintf(line, sizeof line, "check assets/scenes/%s", entry->d_name);
-        assert_command(0, line, "");
-        if (command.out[0] || command.err[0]) fail_msg("wiggly %s: %s%s", line, command.out, command.err);
+        expect_each(0, "check assets/scenes/%s", "", entry->d_name);
+        if (command.out[0] || command.err[0]) fail_msg("%s: %s%s", entry->d_name, command.out, command.err);
     }
     closedir(all);
 }
@@ -552,6 +676,110 @@ TEST(an_inexact_curve_is_said)
         n += sprintf(text + n, "%s{\"frame\": %d, \"value\": 0.%d}", k ? "," : "", 10 * k, k * k * 7 % 10);
     sprintf(text + n, "]}]}");
     folder_file("chain.json", text);
-    assert_command(0, "solve chain.json", "\"chain\": solved, but the estimated error exceeds the tolerance: ");
+    expect(0, "solve chain.json", "\"chain\": solved, but the estimated error exceeds the tolerance: ");
     assert_non_null(strstr(command.err, " of the curve's size\n"));
+}
+
+// --- the table of options
+
+static bool loud;
+static const char *out, *operands[2];
+static int frames, size[2], method;
+static double scale;
+
+enum { SOLVER_CHAIN = 1, SOLVER_BAND };
+
+static const struct option_spec specs[] = {
+    {"--loud", "a flag", OPTION_FLAG, &loud, 0, 0},
+    {"-o, --output FILE", "a text", OPTION_TEXT, &out, 0, 0},
+    {"--frames N", "a whole number", OPTION_INT, &frames, 1, 100},
+    {"--scale S", "a number", OPTION_REAL, &scale, 0.5, 4},
+    {"--size WxH", "a size", OPTION_SIZE, size, 16, 8192},
+    {"--solver chain|band", "a method", OPTION_WORD, &method, 0, 0},
+    {0},
+};
+
+static const struct usage usage = {
+    .command = "test", .operands = "a [b]", .summary = "of the tests", .options = specs, .operand_maximum = 2};
+
+/// What a line gives: all values in one text, or nothing where it is refused, which leaves every target alone.
+static const char *parse(const char *line)
+{
+    static char text[256], given[256];
+    char *argv[17] = {"test"};
+    int argc = 1;
+    loud = false;
+    out = operands[0] = operands[1] = NULL;
+    frames = size[0] = size[1] = -1;
+    scale = -1;
+    method = SOLVER_CHAIN;
+    snprintf(text, sizeof text, "%s", line);
+    for (char *word = strtok(text, " "); word && argc < 16; word = strtok(NULL, " ")) argv[argc++] = word;
+    const int result = options_parse(&usage, argc, argv, operands);
+    if (result != OPTIONS_RUN && (frames != -1 || scale > -1 || size[0] != -1 || method != SOLVER_CHAIN))
+        fail_msg("'%s' is refused and sets something", line);
+    if (result != OPTIONS_RUN) return result == OPTIONS_WRONG ? "" : "neither";
+    snprintf(given, sizeof given, "%s %s%s o=%s %d %g %dx%d %s", operands[0], operands[1] ? operands[1] : "-",
+             loud ? " loud" : "", out ? out : "-", frames, scale, size[0], size[1],
+             method == SOLVER_BAND ? "band" : "chain");
+    return given;
+}
+
+TEST(values_in_every_spelling)
+{
+    static const struct {
+        const char *line, *gives;
+    } spellings[] = {
+        {"a --loud -o x --frames=7 --scale 1.5 b --size 1280x720", "a b loud o=x 7 1.5 1280x720 chain"},
+        {"a --solver band", "a - o=- -1 -1 -1x-1 band"},
+        {"a --solver=band --solver=chain", "a - o=- -1 -1 -1x-1 chain"},
+        {"-- --loud", "--loud - o=- -1 -1 -1x-1 chain"},
+        {"-", "- - o=- -1 -1 -1x-1 chain"},                // by itself it is a name
+        {"a -o --loud", "a - o=--loud -1 -1 -1x-1 chain"}, // a value may begin with a dash
+    };
+    for (size_t i = 0; i < COUNT(spellings); i++) assert_string_equal(parse(spellings[i].line), spellings[i].gives);
+}
+
+TEST(spellings_that_are_refused)
+{
+    static const char *const lines[] = {"",
+                                        "a b c",
+                                        "a --lod",
+                                        "a -x",
+                                        "a --loud=yes",
+                                        "a --frames",
+                                        "a --frames 0",
+                                        "a --frames 101",
+                                        "a --frames 7x",
+                                        "a --frames=",
+                                        "a --out=",
+                                        "a --scale nan",
+                                        "a --scale 1e400",
+                                        "a --scale 0.4",
+                                        "a --size 1280",
+                                        "a --size 1280x",
+                                        "a --size 8x720",
+                                        "a --size 1280x720x2",
+                                        "a --size 1280x9000",
+                                        "a --solver",
+                                        "a --solver Band",
+                                        "a --solver bands",
+                                        "a --solver=",
+                                        "a --frames 99999999999999999999"};
+    for (size_t i = 0; i < COUNT(lines); i++)
+        if (*parse(lines[i])) fail_msg("'%s' is taken as '%s'", lines[i], parse(lines[i]));
+}
+
+TEST(the_nearest_word)
+{
+    static const char *words[] = {"live", "solve", "check"};
+    char longest[1000] = "";
+    memset(longest, 'x', sizeof longest - 1);
+    const char *const typos[][2] = {
+        {"slove", "solve"}, {"chek", "check"}, {"lives", "live"}, {"render", NULL}, {longest, NULL}};
+    for (size_t i = 0; i < COUNT(typos); i++) {
+        const char *nearest = options_nearest(typos[i][0], words, 3);
+        if (typos[i][1] ? !nearest || strcmp(nearest, typos[i][1]) != 0 : nearest != NULL)
+            fail_msg("%s", typos[i][0]);
+    }
 }
