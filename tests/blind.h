@@ -65,6 +65,67 @@ static inline void blind_key(struct blind *blind, int key, unsigned mods)
     blind_frame(blind);
 }
 
+static inline void blind_frames(struct blind *blind, int count)
+{
+    for (int i = 0; i < count; i++) blind_frame(blind);
+}
+
+/// Queues a movement of the pointer, in device pixels.
+static inline void blind_pointer(struct blind *blind, float x, float y)
+{
+    blind_send(blind, (struct event){.kind = EVENT_POINTER, .x = x, .y = y});
+}
+
+/// The same, with a frame.
+static inline void blind_point(struct blind *blind, float x, float y)
+{
+    blind_pointer(blind, x, y);
+    blind_frame(blind);
+}
+
+static inline void blind_button(struct blind *blind, enum event_button button, enum event_action action, float x,
+                                float y)
+{
+    blind_send(blind,
+               (struct event){.kind = EVENT_BUTTON, .button = button, .action = action, .clicks = 1, .x = x, .y = y});
+}
+
+/// A click, with a frame.
+static inline void blind_click(struct blind *blind, float x, float y)
+{
+    blind_pointer(blind, x, y);
+    blind_button(blind, BUTTON_LEFT, ACTION_PRESS, x, y);
+    blind_button(blind, BUTTON_LEFT, ACTION_RELEASE, x, y);
+    blind_frame(blind);
+}
+
+static inline void blind_resize(struct blind *blind, float width, float height, float scale)
+{
+    blind_send(blind, (struct event){.kind = EVENT_SIZE, .x = width, .y = height, .scale = scale});
+    blind_frame(blind);
+}
+
+/// Lets the user's settings and recovery files be in this folder.
+static inline void blind_home(const char *folder)
+{
+    assert_int_equal(setenv("XDG_STATE_HOME", folder, 1) | setenv("XDG_CONFIG_HOME", folder, 1), 0);
+}
+
+/// Starts the app as a user does, with settings and recovery.
+static inline void blind_arrive(struct blind *blind, const char *scene)
+{
+    blind_open(blind, scene);
+    personal_start(&blind->app);
+    blind_frame(blind);
+}
+
+/// Ends it; `lost`: as when it could not ask, so that unsaved work stays in its recovery file.
+static inline void blind_leave(struct blind *blind, bool lost)
+{
+    personal_end(&blind->app, lost);
+    blind_close(blind);
+}
+
 /// A test of the app as `opens` starts it: BLIND_TEST(name, blind_open(b, NULL)) { … }.
 #define BLIND_TEST(name, opens) TEST_OF(struct blind, b, opens, blind_close(b), name)
 

@@ -1,251 +1,347 @@
-/// The app's frames and files, without a picture.
+/// What the app shows, without a picture: figures, the card for newcomers, larger type, presenting, and the demo.
 #include "blind.h"
 #include "documents.h"
-#include "folder.h"
 #include "questions.h"
 
 #include "scene/load.h"
 #include "shown.h"
-#include <signal.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
-enum { NOBODY = 65534 };
-
-/// At frames 0 and 36.
-static const char two_knots[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": "
-                                "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]}]}";
-
-static const char *scene(void) { return folder_path("scene.json"); }
-
-/// Opens a scene in a folder of its own that everybody may read.
-static void open_scene(struct blind *blind, const char *text)
-{
-    assert_int_equal(folder_make(NULL), 0);
-    assert_int_equal(chmod(folder, 0755), 0);
-    blind_open(blind, folder_file("scene.json", text));
-    blind_frame(blind);
-}
-
-static void close_scene(struct blind *blind)
-{
-    blind_close(blind);
-    folder_remove(NULL);
-}
-
-static const char old_scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"rigs\": [{\"type\": \"meadow\"}]}";
-
-/// What an old scene showed and this wiggly does not is said, and saving keeps it.
-TEST_OF(struct blind, blind, open_scene(blind, old_scene), close_scene(blind), a_meadow_is_not_lost)
-{
-    assert_said(blind->app.work.editor, "Meadows are no longer shown");
-    blind_key(blind, 'S', MOD_CTRL);
-    struct document *saved = document_of_file(scene());
-    assert_true(scene_has_meadow(saved));
-    document_destroy(saved);
-}
-
-static void send_pointer(struct blind *blind, enum event_kind kind, float x, float y)
-{
-    blind_send(blind, (struct event){.kind = kind, .action = ACTION_PRESS, .clicks = 1, .x = x, .y = y});
-}
-
-/// Work is asked about once, and only where it would be lost: a figure that nobody has edited is replaced without a question.
-TEST_OF(struct blind, blind, open_scene(blind, two_knots), close_scene(blind), a_figure_asks_before_it_replaces_work)
-{
-    struct app *app = &blind->app;
-    const struct dialog *dialog = dialog_of(app->work.editor);
-    blind_key(blind, 'M', 0);
-    assert_false(history_is_saved(app->work.history));
-    char *edited = text_of_document(app->work.document);
-    blind_key(blind, '4', MOD_CTRL);
-    assert_int_equal(dialog->kind, DIALOG_UNSAVED);
-    blind_key(blind, 'C', 0);
-    assert_prints(app->work.document, edited);
-    blind_key(blind, '4', MOD_CTRL);
-    blind_key(blind, 'S', 0);
-    assert_int_equal(dialog->kind, DIALOG_NONE);
-    assert_true(app->work.document->spline_count > 1);
-    struct document *saved = document_of_file(scene());
-    assert_prints(saved, edited);
-    document_destroy(saved);
-    free(edited);
-    const int keys[] = {'1', '9', '7', 'N'};
-    for (int k = 0; k < 4; k++) {
-        const unsigned serial = app->work.document->serial;
-        blind_key(blind, keys[k], MOD_CTRL);
-        assert_int_equal(dialog->kind, DIALOG_NONE);
-        assert_int_not_equal(app->work.document->serial, serial);
-        assert_null(app->work.document->path);
-    }
-}
+static struct editor *e(const struct blind *b) { return b->app.work.editor; }
+static struct core *core(struct blind *b) { return &b->app.work.editor->core; }
+static bool shows(const struct blind *b, const char *text) { return shown_text(e(b), text) != NULL; }
 
 /// Events happen in their order: a figure's key before the first movement of a drag ends the press, and the movement is no drag.
-TEST_OF(struct blind, blind, open_scene(blind, two_knots), close_scene(blind),
-        a_figure_ends_a_press_that_began_in_its_frame)
+BLIND_TEST(a_figure_ends_a_press_that_began_in_its_frame, blind_open(b, "assets/scenes/tail.json"))
 {
-    struct app *app = &blind->app;
+    struct app *app = &b->app;
     float x, y;
-    assert_true(editor_target(app->work.editor, "knot(s,1)", &x, &y, NULL));
-    send_pointer(blind, EVENT_POINTER, x, y);
-    send_pointer(blind, EVENT_BUTTON, x, y);
-    blind_send_key(blind, '4', MOD_CTRL);
-    send_pointer(blind, EVENT_POINTER, x, y - 40);
-    blind_frame(blind);
+    char knot[64];
+    blind_frame(b);
+    const int splines = app->work.document->spline_count;
+    snprintf(knot, sizeof knot, "knot(%s,1)", app->work.document->splines[0]->name);
+    assert_true(editor_target(e(b), knot, &x, &y, NULL));
+    blind_pointer(b, x, y);
+    blind_button(b, BUTTON_LEFT, ACTION_PRESS, x, y);
+    blind_send_key(b, '4', MOD_CTRL);
+    blind_point(b, x, y - 40);
     assert_false(history_is_open(app->work.history));
     assert_int_equal(history_count(app->work.history), 0);
-    blind_frame(blind);
-    assert_true(app->work.document->spline_count > 1);
+    blind_frame(b);
+    assert_true(app->work.document->spline_count != splines && !app->work.document->path);
 }
 
 /// Figure 2 is of poles and response: both are in sight at once, from the command line and by its key.
 TEST(poles_of_figure_2_are_in_sight)
 {
     for (int by_key = 0; by_key < 2; by_key++) {
-        struct blind blind;
+        struct blind b;
         float x, y;
-        blind_open(&blind, by_key ? NULL : "assets/scenes/figure2.json");
-        if (by_key) blind_send_key(&blind, '2', MOD_CTRL);
-        blind_frame(&blind);
-        blind_frame(&blind);
-        struct editor *editor = blind.app.work.editor;
-        assert_true(widget_at(editor, "pole.centre", &x, &y));
-        const struct draw_command *axis = shown_text(editor, "-1 Hz"); // below the response
+        blind_open(&b, by_key ? NULL : "assets/scenes/figure2.json");
+        if (by_key) blind_send_key(&b, '2', MOD_CTRL);
+        blind_frames(&b, 2);
+        assert_true(widget_at(e(&b), "pole.centre", &x, &y));
+        const struct draw_command *axis = shown_text(e(&b), "-1 Hz"); // below the response
         assert_non_null(axis);
-        assert_true(axis->y < layout_of(editor)->inspector.y + layout_of(editor)->inspector.h - 40);
-        blind_close(&blind);
+        assert_true(axis->y < layout_of(e(&b))->inspector.y + layout_of(e(&b))->inspector.h - 40);
+        blind_close(&b);
     }
 }
 
-static void open_edited(struct blind *blind)
+// --- the card for newcomers stands beside what a scene shows, or in a band above it, on every size of stage
+
+enum { STEPS = 12, REACH = 6, LINE = 16 };
+
+/// Shows it; the card lies between its first word and its last one.
+static struct rect welcome_at(struct blind *b, float width)
 {
-    open_scene(blind, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}]}");
-    blind_key(blind, 'I', 0);
-    assert_false(history_is_saved(blind->app.work.history));
+    app_resize(&b->app, width, roundf(width * 9 / 16), 1);
+    core(b)->view.refit_stage = true; // as in a window of that size
+    welcome(e(b));
+    blind_frames(b, 2);
+    const struct draw_command *first = shown_text(e(b), "Drag the character"), *last = shown_text(e(b), "Got it");
+    assert_true(first && last && first->y <= last->y);
+    return (struct rect){first->x - REACH, first->y - LINE, last->x + 40 - first->x, last->y - first->y + LINE};
 }
 
-static void assert_knots_in_file(const char *path, int knots)
+static bool covers_a_character(const struct editor *editor, struct rect card)
 {
-    struct document *document = document_of_file(path);
-    assert_int_equal(document->splines[0]->knot_count, knots);
-    document_destroy(document);
+    for (int i = 0; i <= STEPS * STEPS; i++) {
+        struct target target = {.number = {i % STEPS / (double)STEPS, i / STEPS / (double)STEPS}};
+        for (target.nth = 0; target.nth < 2; target.nth++) {
+            float xy[2];
+            if (find_character(editor->stage, &editor->core, &target, xy) && rect_contains(card, xy[0], xy[1]))
+                return true;
+        }
+    }
+    return false;
 }
 
-/// Ctrl+S fails in one sentence that names the file; the work and the file as it was are there, and nothing else is.
-static void assert_save_fails(struct blind *blind)
+/// A click takes it away, upright at the right hand or in a band; the description comes back where a band was.
+TEST(the_card_covers_no_character)
 {
-    blind_key(blind, 'S', MOD_CTRL);
-    const struct message *message = message_of(blind->app.work.editor);
-    assert_true(message->is_error);
-    assert_non_null(strstr(message->text, scene()));
-    assert_null(strchr(message->text, '\n'));
-    assert_false(history_is_saved(blind->app.work.history));
-    assert_int_equal(blind->app.work.document->splines[0]->knot_count, 1);
-    assert_knots_in_file(scene(), 0);
-    char command[128];
-    snprintf(command, sizeof command, "[ \"$(ls -A %s)\" = scene.json ]", folder);
-    assert_int_equal(system(command), 0);
-}
-
-/// The same succeeds once there is nothing in its way.
-static void assert_save_succeeds(struct blind *blind)
-{
-    blind_key(blind, 'S', MOD_CTRL);
-    assert_true(history_is_saved(blind->app.work.history));
-    assert_knots_in_file(scene(), 1);
-    unlink(scene());
-    assert_int_equal(rmdir(folder), 0); // there was nothing else
-}
-
-#define EDITED_TEST(name) TEST_OF(struct blind, b, open_edited(b), close_scene(b), name)
-
-/// A limit of the process stands for the disk that ends.
-EDITED_TEST(work_outlives_a_full_disk)
-{
-    struct rlimit before, small;
-    assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
-    small = before;
-    small.rlim_cur = 100;
-    signal(SIGXFSZ, SIG_IGN);
-    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-    assert_save_fails(b);
-    assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
-    assert_save_succeeds(b);
-}
-
-EDITED_TEST(work_outlives_a_folder_that_cannot_be_written)
-{
-    const bool is_root = geteuid() == 0;
-    assert_int_equal(chmod(folder, 0555), 0);
-    if (is_root) assert_int_equal(seteuid(NOBODY), 0);
-    assert_save_fails(b);
-    if (is_root) assert_int_equal(seteuid(0), 0);
-    assert_int_equal(chmod(folder, 0755), 0);
-    assert_save_succeeds(b);
-}
-
-/// Saves again and again, a knot more or less each time, until it is killed.
-static void save_for_ever(struct blind *blind)
-{
-    for (;;) {
-        blind_send_key(blind, 'Z', MOD_CTRL);
-        blind_key(blind, 'S', MOD_CTRL);
-        blind_send_key(blind, 'Y', MOD_CTRL);
-        blind_key(blind, 'S', MOD_CTRL);
+    static const char *const scenes[] = {"character", "compositing", "figure7", "hands", "up-down"};
+    for (int i = 0; i < 5; i++) {
+        struct blind b;
+        char path[64];
+        snprintf(path, sizeof path, "assets/scenes/%s.json", scenes[i]);
+        blind_open(&b, path);
+        for (float width = 640; width <= 1280; width += 80) {
+            const struct rect card = welcome_at(&b, width), stage = layout_of(e(&b))->stage;
+            if (covers_a_character(e(&b), card)) fail_msg("%s at %g", scenes[i], (double)width);
+            assert_true(card.x >= stage.x && card.x + card.w <= stage.x + stage.w);
+            assert_true(card.y >= stage.y && card.y + card.h <= stage.y + stage.h);
+            if (i != 1 || (width > 640 && width < 1280)) continue;
+            assert_int_equal(shows(&b, "Compositing"), width > 1000);
+            blind_click(&b, card.x + card.w / 2, card.y + card.h / 2);
+            assert_false(is_welcoming(e(&b)));
+            assert_true(shows(&b, "Compositing"));
+        }
+        blind_close(&b);
     }
 }
 
-EDITED_TEST(a_file_outlives_a_program_that_is_killed_while_it_saves)
+// --- how large everything is
+
+enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
+
+BLIND_TEST(keys_make_everything_larger_and_smaller, blind_open(b, NULL))
 {
-    for (int i = 0; i < 20; i++) {
-        const pid_t child = fork();
-        assert_true(child >= 0);
-        if (child == 0) save_for_ever(b);
-        nanosleep(&(struct timespec){.tv_nsec = 3000000 + 700000 * i}, NULL);
-        assert_int_equal(kill(child, SIGKILL), 0);
-        assert_int_equal(waitpid(child, NULL, 0), child);
-        struct document *document = scene_load(scene(), NULL, NULL);
-        assert_non_null(document);
-        document_destroy(document);
+    static const struct {
+        int key, times;
+        unsigned mods;
+        double scale;
+    } rows[] = {{'=', 1, CTRL_SHIFT, 1.25},   {KEY_F8, 1, 0, 1.5},        {'-', 2, CTRL_SHIFT, 1},
+                {KEY_F8, 1, MOD_SHIFT, 0.75}, {'-', 1, CTRL_SHIFT, 0.75}, {'0', 1, CTRL_SHIFT, 1},
+                {'=', 4, CTRL_SHIFT, 1.5}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        for (int k = 0; k < rows[i].times; k++) blind_key(b, rows[i].key, rows[i].mods);
+        assert_near(core(b)->view.scale, rows[i].scale, 1e-6);
+        assert_near(core(b)->view.layout.window.w, 1280 / rows[i].scale, 1e-2);
+        if (i == 0) assert_true(shows(b, "125 %"));
+    }
+    assert_string_equal(said(e(b)), "175 % needs a window of 1330 × 700, not 1280 × 720");
+    blind_frame(b);
+    assert_true(shows(b, said(e(b)))); // in full
+    static const float sizes[][5] = {
+        {1000, 600, 1, 1.25f, 1000 / 1.25f}, {2560, 1440, 2, 3, 2560 / 1.5f}, {600, 1000, 1, 1.5f, 600 / 1.5f}};
+    for (int i = 0; i < 3; i++) { // as large as fits; upright it needs less
+        blind_resize(b, sizes[i][0], sizes[i][1], sizes[i][2]);
+        assert_near(core(b)->view.scale, sizes[i][3], 1e-6);
+        assert_near(core(b)->view.layout.window.w, sizes[i][4], 1e-2);
     }
 }
 
-/// The last resort never writes through a link that somebody has put in its way.
-EDITED_TEST(a_rescue_follows_no_link)
+/// What is on the screen under the pointer stays there.
+BLIND_TEST(the_pointer_means_the_same_place, blind_open(b, NULL))
 {
-    char victim[128];
-    snprintf(victim, sizeof victim, "%s", folder_path("victim"));
-    assert_int_equal(symlink(victim, folder_path("scene.recovered.json")), 0);
-    struct error error = {0};
-    fail(&error, ERROR_ENVIRONMENT, "the end");
-    app_rescue(&b->app, &error);
-    assert_int_not_equal(access(victim, F_OK), 0);
-    assert_non_null(strstr(error.text, folder_path("scene.recovered-2.json")));
-    assert_knots_in_file(folder_path("scene.recovered-2.json"), 1);
+    blind_point(b, 640, 300);
+    blind_key(b, '=', CTRL_SHIFT);
+    assert_near(core(b)->input.pointer_x, 512, 1e-3);
+    blind_point(b, 700, 500);
+    assert_near(core(b)->input.pointer_x, 560, 1e-3);
+    assert_near(core(b)->input.pointer_y, 400, 1e-3);
 }
 
-/// Where nothing else can be written, it is a folder that nobody could know of and that is the user's alone.
-EDITED_TEST(the_last_place_is_ones_own)
+BLIND_TEST(the_status_line_makes_everything_larger_by_mouse, blind_open(b, NULL))
 {
-    struct stat about;
-    char *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
-    document_set_path(b->app.work.document, "/proc/scene.json");
-    setenv("HOME", "/proc", 1);
-    struct error error = {0};
-    fail(&error, ERROR_ENVIRONMENT, "the end");
-    app_rescue(&b->app, &error);
-    if (home) setenv("HOME", home, 1);
-    free(home);
-    char rescued[64] = "";
-    const char *place = strstr(error.text, "/tmp/wiggly-");
-    if (!place || sscanf(place, "%63[^:]", rescued) != 1) fail_msg("%s", error.text);
-    assert_knots_in_file(rescued, 1);
-    assert_int_equal(unlink(rescued), 0);
-    *strrchr(rescued, '/') = '\0';
-    assert_int_equal(stat(rescued, &about), 0);
-    assert_int_equal(about.st_mode & 0777, 0700);
-    assert_int_equal(rmdir(rescued), 0);
+    const float x = 6 + 24 + 42 + 44 + 64 + 48 + 20;
+    blind_button(b, BUTTON_LEFT, ACTION_PRESS, x, 708);
+    blind_frame(b);
+    assert_near(core(b)->view.scale, 1.25, 1e-6);
+    blind_button(b, BUTTON_RIGHT, ACTION_PRESS, x * 1.25f, 708); // the bar is higher now
+    blind_frame(b);
+    assert_near(core(b)->view.scale, 1, 1e-6);
+}
+
+// --- presenting
+
+BLIND_TEST(presenting_gives_the_stage_the_window_and_changes_nothing, blind_open(b, NULL))
+{
+    char *before = text_of_document(b->app.work.document);
+    const struct layout normal = *layout_of(e(b)), *l = layout_of(e(b));
+    blind_key(b, KEY_F5, 0);
+    blind_frames(b, 30);
+    assert_near(core(b)->view.scale, 1.5, 1e-6);
+    assert_near(l->stage.w * 1.5f, 1280, 1);
+    assert_near(l->stage.h * 1.5f, 720, 1);
+    assert_true(l->inspector.x >= l->window.w && l->curves.y >= l->window.h);
+    assert_false(shows(b, "Splines"));
+    blind_key(b, KEY_ESCAPE, 0);
+    assert_memory_equal(l, &normal, sizeof normal);
+    assert_true(shows(b, "Splines"));
+    assert_true(history_is_saved(b->app.work.history));
+    assert_prints(b->app.work.document, before);
+    free(before);
+}
+
+BLIND_TEST(a_panel_comes_when_the_pointer_does, blind_open(b, NULL))
+{
+    static const struct {
+        float x, y; ///< pointer; 0: Tab
+        float side, below;
+    } rows[] = {{600, 300, 0, 0}, {1275, 300, 1, 0}, {1000, 300, 1, 0}, {300, 715, 0, 1}, {0, 0, 1, 1}, {0, 0, 0, 0}};
+    const struct layout *l = layout_of(e(b));
+    blind_key(b, KEY_F5, 0);
+    blind_frames(b, 30);
+    for (int i = 0; i < 6; i++) {
+        if (rows[i].x > 0)
+            blind_point(b, rows[i].x, rows[i].y);
+        else
+            blind_key(b, KEY_TAB, 0);
+        if (i == 1) blind_frames(b, 2);
+        const float side = core(b)->view.presenter.side;
+        if (i == 1) assert_true(side > 0 && side < 1); // slides
+        blind_frames(b, 30);
+        assert_near(core(b)->view.presenter.side, rows[i].side, 0);
+        assert_near(core(b)->view.presenter.below, rows[i].below, 0);
+        if (i == 1) assert_near(l->stage.w * 1.5f, 1280, 1);      // it lies over the stage
+        if (i == 4) assert_true(l->stage.w < l->inspector.x + 1); // now they share the window
+    }
+    blind_key(b, KEY_F5, 0);
+    assert_false(core(b)->view.presenter.on);
+}
+
+/// There they come and go together, and take their room from the stage.
+BLIND_TEST(in_an_upright_window_all_panels_come_from_below, blind_open(b, NULL))
+{
+    const struct layout *l = layout_of(e(b));
+    blind_resize(b, 390, 792, 1);
+    blind_key(b, KEY_F5, 0);
+    blind_frames(b, 30);
+    assert_near(l->stage.h, 792, 0);
+    assert_true(l->curves.y >= 792 && l->inspector.y >= 792);
+    blind_point(b, 200, 785);
+    blind_frames(b, 2);
+    for (int k = 0; k < 2; k++) { // what comes by: the ruler, and the first group's heading
+        const float y = k ? l->inspector.y + 14 : l->ruler.y + 8;
+        blind_button(b, BUTTON_LEFT, ACTION_PRESS, 200, y);
+        if (!k) blind_frame(b);
+        assert_false(is_dragging(e(b)));
+        blind_button(b, BUTTON_LEFT, ACTION_RELEASE, 200, y);
+    }
+    for (int k = 0; k < 2; k++) {
+        blind_frames(b, 30);
+        assert_true(shows(b, "damping")); // the group is still open
+        assert_near(l->status.y + l->status.h, 792, 0);
+        assert_near(l->inspector.y + l->inspector.h, l->status.y, 0);
+        assert_near(l->stage.h, l->curves.y, 0);
+        if (!k) blind_point(b, 200, l->inspector.y + 20);
+    }
+    blind_point(b, 200, 100);
+    blind_frames(b, 30);
+    assert_true(l->curves.y >= 792 && l->inspector.y >= 792);
+}
+
+BLIND_TEST(what_is_pressed_is_shown_and_fades, blind_open(b, NULL))
+{
+    blind_key(b, 'Z', MOD_CTRL);
+    assert_false(shows(b, "Ctrl + Z"));
+    blind_key(b, KEY_F5, 0);
+    assert_true(shows(b, "F5"));
+    blind_key(b, 'Z', MOD_CTRL);
+    assert_true(shows(b, "Ctrl + Z") && shows(b, "Nothing to undo")); // the status line is away or on its way
+    blind_key(b, 'Z', MOD_CTRL);
+    assert_true(shows(b, "Ctrl + Z ×2"));
+    blind_frames(b, 120);
+    assert_false(shows(b, "Ctrl + Z ×2"));
+    blind_button(b, BUTTON_RIGHT, ACTION_PRESS, 600, 300);
+    blind_frame(b);
+    assert_true(shows(b, "right-click"));
+    blind_point(b, 640, 300);
+    assert_true(shows(b, "right drag"));
+    blind_frames(b, 120);
+    assert_true(shows(b, "right drag"));
+    blind_button(b, BUTTON_RIGHT, ACTION_RELEASE, 600, 300);
+    blind_frames(b, 120);
+    assert_false(shows(b, "right drag"));
+}
+
+// --- the demo: all of it can be played, it begins anew by itself, and the first touch ends it
+
+static void demo_open(struct blind *b)
+{
+    blind_open(b, NULL);
+    b->options.demo = true;
+    b->app.demo = (struct demo){.on = true, .theme = theme_in_use()};
+    assert_done(b->app.replay = demo_replay(&error));
+}
+
+static const char *caption(const struct blind *b) { return e(b)->dialogs->caption; }
+static uint64_t scene_now(const struct blind *b) { return scene_hash(b->app.work.document); }
+
+/// Every target is there (else a frame fails), every caption fits, every kind of thing is shown, and the second round is the first.
+BLIND_TEST(all_of_the_demo_plays_and_begins_anew, demo_open(b))
+{
+    bool seen[RIG_KINDS] = {false}, light = false, presents = false, records = false;
+    const uint64_t first = scene_now(b);
+    const long length = replay_get_header(b->app.replay)->frames;
+    uint64_t changed = first;
+    int edits = 0; ///< captions under which the scene became another
+    char last[160] = "";
+    assert_true(length > 100 * 60 && length < 140 * 60);
+    for (long frame = 0; frame < length; frame++) {
+        blind_frame(b);
+        const struct document *document = b->app.work.document;
+        for (int r = 0; r < document->rig_count; r++) seen[document->rigs[r]->kind] = true;
+        light |= theme_in_use() == THEME_LIGHT;
+        presents |= core(b)->view.presenter.on;
+        records |= strstr(said(e(b)), "knots recorded") != NULL;
+        if (strcmp(last, caption(b)) == 0) continue;
+        snprintf(last, sizeof last, "%s", caption(b));
+        if (!shows(b, last)) fail_msg("the caption “%s” does not fit", last);
+        edits += scene_now(b) != changed;
+        changed = scene_now(b);
+    }
+    for (int kind = 0; kind < RIG_KINDS; kind++) assert_true(seen[kind]);
+    assert_true(light && presents && records && edits >= 9 && scene_now(b) != first);
+    blind_frame(b);
+    assert_int_equal(b->app.demo.frame, 0);
+    assert_int_equal(scene_now(b), first);
+    assert_int_equal(theme_in_use(), THEME_DARK);
+    assert_true(b->app.demo.on);
+}
+
+/// In the middle of a drag. A pointer that passes is no touch, and the window's close button loses nothing and asks nothing.
+TEST(the_first_touch_ends_the_demo_with_the_start_scene)
+{
+    static const struct {
+        struct event event;
+        bool stops, quits;
+    } rows[] = {
+        {{.kind = EVENT_KEY, .key = 'V', .action = ACTION_PRESS}, true, false},
+        {{.kind = EVENT_BUTTON, .action = ACTION_PRESS, .x = 300, .y = 200}, true, false},
+        {{.kind = EVENT_WHEEL, .dy = 1, .x = 300, .y = 200}, true, false},
+        {{.kind = EVENT_POINTER, .x = 300, .y = 200}, false, false},
+        {{.kind = EVENT_SIZE, .x = 1600, .y = 900, .scale = 1}, false, false},
+        {{.kind = EVENT_CLOSE}, false, true},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct blind b;
+        demo_open(&b);
+        const uint64_t first = scene_now(&b);
+        blind_frames(&b, 9 * 60);
+        assert_string_equal(dragged(e(&b)), "Move body");
+        blind_send(&b, rows[i].event);
+        app_frame(&b.app);
+        if (b.app.quit != rows[i].quits || (!rows[i].quits && b.app.demo.on == rows[i].stops)) fail_msg("%zu", i);
+        if (rows[i].stops) {
+            assert_int_equal(scene_now(&b), first);
+            assert_true(history_is_saved(b.app.work.history));
+            assert_string_equal(caption(&b), "");
+            assert_false(is_dragging(e(&b)));
+            blind_frame(&b);
+            assert_null(b.app.replay);
+        }
+        blind_close(&b);
+    }
+}
+
+/// A slow display shows fewer pictures of the same demo.
+BLIND_TEST(the_demo_takes_its_time_whatever_the_display, demo_open(b))
+{
+    static const int rates[] = {144, 20};
+    for (int r = 0; r < 2; r++) {
+        for (int i = 0; i < rates[r] * 3; i++) assert_done(demo_next(&b->app, 1.0 / rates[r], &error));
+        assert_int_equal(b->app.demo.frame, 180 * (r + 1));
+    }
 }
