@@ -65,6 +65,25 @@ static inline void blind_key(struct blind *blind, int key, unsigned mods)
     blind_frame(blind);
 }
 
+/// Presses keys one after the other, apart by spaces: "^S" is Ctrl+S, "+I" Shift+I, "!A" Alt+A.
+static inline void blind_keys(struct blind *blind, const char *keys)
+{
+    static const struct {
+        const char *name;
+        int key;
+    } names[] = {{"Enter", KEY_ENTER}, {"Esc", KEY_ESCAPE}, {"Right", KEY_RIGHT}, {"Space", KEY_SPACE}};
+    while (*keys) {
+        unsigned mods = 0;
+        for (; strchr("^+!", *keys); keys++) mods |= *keys == '^' ? MOD_CTRL : *keys == '+' ? MOD_SHIFT : MOD_ALT;
+        const size_t length = strcspn(keys, " ");
+        int key = *keys;
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+            if (length == strlen(names[i].name) && strncmp(keys, names[i].name, length) == 0) key = names[i].key;
+        blind_key(blind, key, mods);
+        keys += length + strspn(keys + length, " ");
+    }
+}
+
 static inline void blind_frames(struct blind *blind, int count)
 {
     for (int i = 0; i < count; i++) blind_frame(blind);

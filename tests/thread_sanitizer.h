@@ -1,6 +1,6 @@
 /// Maps C11 threads to POSIX threads, because the thread sanitizer does not support <threads.h>. Included before all sources:
 ///
-///     make B=build/threads CFLAGS="-fsanitize=thread -include tests/thread_sanitizer.h" TESTS=tests/app/test_autosave.c test
+///     make B=build/threads CFLAGS="-fsanitize=thread -include tests/thread_sanitizer.h" TESTS=test_autosave test
 ///
 /// In glibc the types are interchangeable.
 #ifndef TESTS_THREAD_SANITIZER_H
