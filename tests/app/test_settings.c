@@ -1,60 +1,89 @@
-/// The settings file, and the list of recent files in it.
+/// What a window remembers for the user from run to run: the settings file, looks, panels, recent files and the last export.
 #include "blind.h"
+#include "folder.h"
+#include "questions.h"
 
 #include "app/settings.h"
-#include "base/file.h"
-#include "folder.h"
+#include "ui/theme.h"
 #include <sys/wait.h>
 #include <unistd.h>
 
-static struct settings *load(const char *text)
+static int prepare(void **state)
+{
+    if (folder_make(state) != 0) return -1;
+    blind_home(folder);
+    return 0;
+}
+
+#define FOLDER_TEST(name) TEST_WITH(prepare, folder_remove, name)
+
+// --- the file
+
+static struct settings *load_file(const char *path)
 {
     struct error error;
-    struct settings *settings = settings_load(folder_file("settings", text), &error);
+    struct settings *settings = settings_load(path, &error);
     assert_non_null(settings);
     if (error.kind != ERROR_NONE) fail_msg("%s", error.text);
     return settings;
 }
 
-static void assert_saved(const struct settings *settings, const char *expected)
+static struct settings *load(const char *text) { return load_file(folder_file("settings", text)); }
+
+/// What this program does not know is there again after a save.
+FOLDER_TEST(unknown_keys_stay)
 {
     char *data;
     size_t size;
-    assert_done(settings_save(settings, folder_path("settings"), &error));
-    assert_done(file_read(folder_path("settings"), 1 << 20, &data, &size, &error));
-    assert_string_equal(data, expected);
-    free(data);
-}
-
-/// What this program does not know is there again after a save.
-TEST_WITH(folder_make, folder_remove, test_unknown_keys_stay)
-{
     struct settings *settings = load("\xEF\xBB\xBF{\"theme\": \"dark\", \"future\": {\"a\": [1, 0.1, null]}}");
     assert_string_equal(settings_get(settings, "theme"), "dark");
     settings_set(settings, "theme", "light");
     settings_set_number(settings, "inspector_width", 300.25);
     settings_set_flag(settings, "more", true);
-    assert_saved(settings,
-                 "{\n  \"theme\": \"light\",\n  \"future\": {\n    \"a\": [\n      1,\n      0.1,\n      null\n"
-                 "    ]\n  },\n  \"inspector_width\": 300.25,\n  \"more\": true\n}\n");
+    assert_done(settings_save(settings, folder_path("settings"), &error));
+    assert_done(file_read(folder_path("settings"), 1 << 20, &data, &size, &error));
+    assert_string_equal(data, "{\n  \"theme\": \"light\",\n  \"future\": {\n    \"a\": [\n      1,\n      0.1,\n"
+                              "      null\n    ]\n  },\n  \"inspector_width\": 300.25,\n  \"more\": true\n}\n");
+    free(data);
     settings_free(settings);
 }
 
-TEST_WITH(folder_make, folder_remove, test_values_of_another_kind)
+/// A value of another kind is none. Earlier versions wrote lines.
+FOLDER_TEST(values_of_each_kind)
 {
-    struct settings *settings = load("{\"a\": 0.25, \"b\": \"wide\", \"c\": true, \"d\": 3}");
-    assert_near(settings_number(settings, "a", 1), 0.25, 0);
-    assert_near(settings_number(settings, "b", 1), 1, 0);
-    assert_near(settings_number(settings, "d", 1), 3, 0);
-    assert_near(settings_number(settings, "e", 2), 2, 0);
-    assert_true(settings_flag(settings, "c", false));
-    assert_true(settings_flag(settings, "a", true));
-    assert_null(settings_get(settings, "a"));
-    settings_free(settings);
+    static const char *const texts[] = {
+        "{\"a\": 0.25, \"b\": \"wide\", \"c\": true, \"d\": 3}",
+        "# mine\ntheme = dark\r\nrecent = /b = c \nrecent = /a\nmore = yes\nui_scale = 1.5\n"};
+    static const struct {
+        int text;
+        const char *key;
+        double number; ///< NAN: none
+        int flag;      ///< −1: none
+        const char *string;
+    } rows[] = {{0, "a", 0.25, -1, NULL},       {0, "b", NAN, -1, "wide"},   {0, "c", NAN, true, NULL},
+                {0, "d", 3, -1, NULL},          {0, "e", NAN, -1, NULL},     {1, "theme", NAN, -1, "dark"},
+                {1, "ui_scale", 1.5, -1, NULL}, {1, "more", NAN, true, NULL}};
+    struct dialog_recent files[2];
+    struct settings *settings = NULL;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *key = rows[i].key;
+        settings = load(texts[rows[i].text]);
+        const double number = settings_number(settings, key, 77);
+        const char *string = settings_get(settings, key);
+        assert_near(number, isnan(rows[i].number) ? 77 : rows[i].number, 0);
+        if (settings_flag(settings, key, true) != (rows[i].flag != 0) ||
+            settings_flag(settings, key, false) != (rows[i].flag == 1) || !string != !rows[i].string ||
+            (string && strcmp(string, rows[i].string) != 0))
+            fail_msg("%s: %g \"%s\"", key, number, string ? string : "-");
+        if (rows[i].text == 1) assert_int_equal(recent_list(settings, files, 2), 2);
+        settings_free(settings);
+    }
+    assert_string_equal(files[0].path, "/b = c ");
+    assert_string_equal(files[1].path, "/a");
 }
 
 /// A broken file is said and stays as it is, so that nothing that can be mended is lost.
-TEST_WITH(folder_make, folder_remove, test_broken)
+FOLDER_TEST(broken_settings)
 {
     struct error error;
     const char *path = folder_file("settings", "{\"theme\": \"dark\",\n\"more\" true}");
@@ -64,52 +93,19 @@ TEST_WITH(folder_make, folder_remove, test_broken)
     assert_non_null(strstr(error.text, "settings:2: "));
     assert_null(settings_get(settings, "theme"));
     settings_free(settings);
-    assert_null(settings_open(path, &error));
-    assert_int_equal(error.kind, ERROR_INPUT);
-    assert_null(settings_open(folder, &error)); // a directory in its place
-    assert_int_equal(error.kind, ERROR_INPUT);
-    settings = settings_load(folder_path("none"), &error);
-    assert_non_null(settings);
-    assert_int_equal(error.kind, ERROR_NONE);
-    settings_free(settings);
+    for (int i = 0; i < 2; i++) { // or a directory in its place
+        assert_null(settings_open(i ? folder : path, &error));
+        assert_int_equal(error.kind, ERROR_INPUT);
+    }
+    settings_free(load_file(folder_path("none")));
 }
 
-/// Earlier versions wrote lines.
-TEST_WITH(folder_make, folder_remove, test_lines)
-{
-    struct settings *settings =
-        load("# mine\ntheme = dark\r\nrecent = /b = c \nrecent = /a\nmore = yes\nui_scale = 1.5\n");
-    struct dialog_recent files[2];
-    assert_string_equal(settings_get(settings, "theme"), "dark");
-    assert_near(settings_number(settings, "ui_scale", 1), 1.5, 0);
-    assert_true(settings_flag(settings, "more", false));
-    assert_int_equal(recent_list(settings, files, 2), 2);
-    assert_string_equal(files[0].path, "/b = c ");
-    assert_string_equal(files[1].path, "/a");
-    settings_free(settings);
-}
+// --- recent files
 
-/// Any name of a file is read back as it was.
-TEST_WITH(folder_make, folder_remove, test_names)
+/// Newest first, at most so many, each once, with those that are gone marked. Any name of a file is read back as it was.
+FOLDER_TEST(recent_files)
 {
     static const char *const names[] = {"a\nb", " c ", "\"d\\", "\xFFgr\xC3\xBC\xC3n"};
-    struct settings *settings = load("{}");
-    for (int i = 0; i < 4; i++) recent_note(settings, folder_file(names[i], "{}"));
-    assert_done(settings_save(settings, folder_path("settings"), &error));
-    settings_free(settings);
-    struct error error;
-    settings = settings_load(folder_path("settings"), &error);
-    struct dialog_recent files[5];
-    assert_int_equal(recent_list(settings, files, 5), 4);
-    for (int i = 0; i < 4; i++) {
-        assert_string_equal(path_name(files[3 - i].path), names[i]);
-        assert_false(files[3 - i].missing);
-    }
-    settings_free(settings);
-}
-
-TEST_WITH(folder_make, folder_remove, test_recent)
-{
     struct settings *settings = load("{\"theme\": \"dark\"}");
     struct dialog_recent files[DIALOG_MAX_RECENT + 4];
     char name[32];
@@ -121,12 +117,21 @@ TEST_WITH(folder_make, folder_remove, test_recent)
     assert_int_equal(unlink(folder_path("14.json")), 0);
     int count = recent_list(settings, files, DIALOG_MAX_RECENT + 4);
     assert_int_equal(count, DIALOG_MAX_RECENT);
-    assert_non_null(strstr(files[0].path, "/9.json"));
+    assert_string_equal(path_name(files[0].path), "9.json");
     assert_false(files[0].missing);
-    assert_non_null(strstr(files[1].path, "/14.json"));
+    assert_string_equal(path_name(files[1].path), "14.json");
     assert_true(files[1].missing);
-    assert_non_null(strstr(files[11].path, "/3.json"));
-    for (int i = 1; i < count; i++) assert_null(strstr(files[i].path, "/9.json"));
+    assert_string_equal(path_name(files[11].path), "3.json");
+    for (int i = 1; i < count; i++) assert_string_not_equal(path_name(files[i].path), "9.json");
+    for (int i = 0; i < 4; i++) recent_note(settings, folder_file(names[i], "{}"));
+    assert_done(settings_save(settings, folder_path("settings"), &error));
+    settings_free(settings);
+    settings = load_file(folder_path("settings"));
+    assert_int_equal(recent_list(settings, files, 5), 5);
+    for (int i = 0; i < 4; i++) {
+        assert_string_equal(path_name(files[3 - i].path), names[i]);
+        assert_false(files[3 - i].missing);
+    }
     settings_free(settings);
 }
 
@@ -139,38 +144,120 @@ static const char *name_of(int window, int i)
     return name;
 }
 
-/// One window opens its files, each of which is a change of the settings.
-static void open_files(int window)
-{
-    struct blind blind;
-    blind_open(&blind, NULL);
-    personal_start(&blind.app);
-    for (int i = 0; i < EACH; i++) personal_note_file(&blind.app, folder_path(name_of(window, i)));
-    personal_end(&blind.app, false);
-    blind_close(&blind);
-    _exit(0);
-}
-
-/// Two windows change the file at the same time: it holds what both have changed.
-TEST_WITH(folder_make, folder_remove, test_two_windows)
+/// Two windows open files at the same time, each of which is a change of the settings: the file holds what both have changed.
+FOLDER_TEST(two_windows)
 {
     struct dialog_recent files[DIALOG_MAX_RECENT];
-    assert_int_equal(setenv("XDG_CONFIG_HOME", folder, 1), 0);
-    assert_int_equal(setenv("XDG_STATE_HOME", folder, 1), 0);
     for (int i = 0; i < 2 * EACH; i++) folder_file(name_of(i % 2, i / 2), "{}");
     for (int round = 0; round < ROUNDS; round++) {
-        struct error error;
         unlink(folder_path("wiggly/settings"));
         for (int window = 0; window < 2; window++) {
-            if (fork() == 0) open_files(window);
+            const pid_t child = fork();
+            assert_true(child >= 0);
+            if (child != 0) continue;
+            struct blind b;
+            blind_open(&b, NULL);
+            personal_start(&b.app);
+            for (int i = 0; i < EACH; i++) personal_note_file(&b.app, folder_path(name_of(window, i)));
+            blind_leave(&b, false);
+            _exit(0);
         }
         for (int window = 0, status; window < 2; window++) {
             assert_true(wait(&status) > 0);
             assert_int_equal(status, 0);
         }
-        struct settings *settings = settings_load(folder_path("wiggly/settings"), &error);
-        assert_non_null(settings);
+        struct settings *settings = load_file(folder_path("wiggly/settings"));
         assert_int_equal(recent_list(settings, files, DIALOG_MAX_RECENT), 2 * EACH);
         settings_free(settings);
     }
+}
+
+// --- the window
+
+/// As the app starts in a window.
+static void start(struct blind *b)
+{
+    blind_open(b, NULL);
+    struct platform *platform = b->app.platform;
+    platform->window = (struct window *)platform; // only whether there is one is asked here
+    personal_start(&b->app);
+    platform->window = NULL;
+    assert_non_null(b->app.personal);
+}
+
+FOLDER_TEST(looks_and_panels_are_as_they_were_left)
+{
+    struct blind b;
+    const enum theme_kind before = theme_in_use(), other = before == THEME_LIGHT ? THEME_DARK : THEME_LIGHT;
+    start(&b);
+    theme_use(other);
+    b.app.figures.ui_scale = 1.5;
+    core_set_panels(&b.app.work.editor->core, 0.4, 333);
+    assert_false(is_on(b.app.work.editor, SWITCH_MORE));
+    blind_key(&b, KEY_F9, 0);
+    assert_true(is_on(b.app.work.editor, SWITCH_KEEP));
+    blind_keys(&b, "!A");
+    personal_update(&b.app);
+    blind_leave(&b, false);
+    theme_use(before);
+
+    start(&b);
+    assert_int_equal(theme_in_use(), other);
+    assert_near(b.app.figures.ui_scale, 1.5, 0);
+    assert_true(is_on(b.app.work.editor, SWITCH_MORE));
+    assert_false(is_on(b.app.work.editor, SWITCH_KEEP));
+    assert_near(layout_of(b.app.work.editor)->stage_share, 0.4, 1e-6);
+    assert_near(layout_of(b.app.work.editor)->inspector_width, 333, 1e-9);
+    blind_leave(&b, false);
+    theme_use(before);
+}
+
+/// The card for new users comes until it has been closed once.
+FOLDER_TEST(the_welcome_comes_once)
+{
+    for (int run = 0; run < 3; run++) {
+        struct blind b;
+        start(&b);
+        personal_update(&b.app);
+        assert_int_equal(is_welcoming(b.app.work.editor), run < 2);
+        blind_frame(&b);
+        if (run == 1) {
+            blind_keys(&b, "Esc");
+            personal_update(&b.app);
+        }
+        blind_leave(&b, false);
+    }
+}
+
+/// What cannot be stored is said.
+FOLDER_TEST(files_and_the_last_export_are_remembered)
+{
+    struct blind b;
+    struct dialog_recent files[DIALOG_MAX_RECENT];
+    struct request request = {.wish = {.is_cubic = true, .keys = 3, .width = 640, .height = 360}};
+    struct export_memory memory;
+    start(&b);
+    personal_note_file(&b.app, folder_file("one.json", ""));
+    personal_note_file(&b.app, folder_file("two.json", ""));
+    snprintf(request.path, sizeof request.path, "%s", folder_path("out.glb"));
+    personal_note_export(&b.app, &request);
+    blind_leave(&b, false);
+
+    start(&b);
+    assert_int_equal(personal_recent(&b.app, files, DIALOG_MAX_RECENT), 2);
+    assert_string_equal(files[0].path, folder_path("two.json"));
+    assert_string_equal(files[1].path, folder_path("one.json"));
+    struct settings *settings = load_file(folder_path("wiggly/settings"));
+    export_memory_read(settings, "", &memory);
+    settings_free(settings);
+    assert_string_equal(memory.path, request.path);
+    assert_true(memory.wish.is_cubic && memory.wish.keys == 3);
+    assert_true(memory.wish.width == 640 && memory.wish.height == 360);
+    assert_false(said_error(b.app.work.editor));
+    assert_int_equal(rename(folder_path("wiggly"), folder_path("was")), 0);
+    folder_file("wiggly", "");
+    personal_note_file(&b.app, folder_path("one.json"));
+    assert_said_error(b.app.work.editor, "settings");
+    assert_int_equal(unlink(folder_path("wiggly")), 0);
+    blind_leave(&b, false);
 }
