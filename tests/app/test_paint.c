@@ -1,5 +1,4 @@
 /// Paint on characters as data: strokes and their undo, files that are saved and read, what a recovery file keeps.
-#include "app/recovery.h"
 #include "base/npy.h"
 #include "commands/commands.h"
 #include "documents.h"
@@ -52,6 +51,16 @@ static void dab(struct studio *s, int first, int count, float swell, float lead)
     assert_true(edit_paint(s->document, 0, &made, NULL));
 }
 
+/// The document's paint is the studio's.
+static void assert_same_paint(const struct studio *s, const struct document *document)
+{
+    const struct paint *paint = document_character(document, 0)->painted;
+    assert_non_null(paint);
+    assert_int_equal(paint->coordinates, COORDINATES);
+    assert_int_equal(paint->vertices, VERTICES);
+    assert_memory_equal(paint->values, rig_of(s)->painted->values, sizeof(float[COORDINATES * VERTICES][2]));
+}
+
 static void new_paint(struct studio *s) { assert_true(edit_paint_new(s->document, 0, COORDINATES, VERTICES, NULL)); }
 
 /// A stroke of three dabs, with the paint it is the first on.
@@ -70,66 +79,55 @@ static const float *value_of(const struct studio *s, int coordinate, int vertex)
     return rig_of(s)->painted->values[coordinate * VERTICES + vertex];
 }
 
-STUDIO_TEST(a_stroke_is_one_step_and_comes_back_byte_by_byte)
+/// A stroke is one step and comes back byte by byte. One that is cancelled leaves nothing; one that goes on for long goes on from its last frame.
+STUDIO_TEST(strokes_are_steps)
 {
+    static const struct {
+        int coordinate, vertex, number;
+        double value;
+    } rows[] = {{1, 10, 1, 2.5}, {1, 11, 1, 0.5}, {1, 16, 0, 0.2f}, {1, 17, 0, 0}, {0, 10, 1, 0}};
     float before[COORDINATES * VERTICES][2], after[COORDINATES * VERTICES][2];
     paint_stroke(s);
-    assert_int_equal((int)history_count(s->history), 1);
-    assert_near((double)value_of(s, 1, 10)[1], 2.5, 0);
-    assert_near((double)value_of(s, 1, 11)[1], 0.5, 0);
-    assert_near((double)value_of(s, 1, 16)[0], 0.2f, 0);
-    assert_near((double)value_of(s, 1, 17)[0], 0, 0);
-    assert_near((double)value_of(s, 0, 10)[1], 0, 0);
+    assert_int_equal(history_count(s->history), 1);
+    for (int i = 0; i < 5; i++)
+        assert_near(value_of(s, rows[i].coordinate, rows[i].vertex)[rows[i].number], rows[i].value, 0);
     memcpy(before, rig_of(s)->painted->values, sizeof before);
     history_begin(s->history, "Paint", 0);
     dab(s, 0, 12, -1, 0.25f);
+    for (int i = 0; i < 1000; i++) dab(s, 20, 3, 0, 0.001f * (float)i);
     history_end(s->history);
     memcpy(after, rig_of(s)->painted->values, sizeof after);
+    assert_near(value_of(s, 1, 20)[1], 0.999, 1e-6);
+    history_begin(s->history, "Paint", 0);
+    dab(s, 0, VERTICES, 1, 1);
+    history_restart(s->history);
+    assert_memory_equal(rig_of(s)->painted->values, after, sizeof after);
+    history_end(s->history);
+    assert_int_equal(history_count(s->history), 2);
     assert_true(history_undo(s->history));
     assert_memory_equal(rig_of(s)->painted->values, before, sizeof before);
     assert_true(history_redo(s->history));
     assert_memory_equal(rig_of(s)->painted->values, after, sizeof after);
-    assert_true(history_undo(s->history));
-    assert_true(history_undo(s->history));
+    while (history_undo(s->history)) continue;
     assert_null(rig_of(s)->painted);
     while (history_redo(s->history)) continue;
     assert_memory_equal(rig_of(s)->painted->values, after, sizeof after);
 }
 
-/// A stroke that is cancelled leaves nothing; one that goes on for long goes on from its last frame.
-STUDIO_TEST(a_stroke_goes_on_or_is_cancelled)
-{
-    paint_stroke(s);
-    history_begin(s->history, "Paint", 0);
-    for (int i = 0; i < 1000; i++) dab(s, 20, 3, 0, 0.001f * (float)i);
-    history_end(s->history);
-    history_begin(s->history, "Paint", 0);
-    dab(s, 0, VERTICES, 1, 1);
-    history_restart(s->history);
-    assert_near((double)value_of(s, 1, 0)[0], 0, 0);
-    assert_near((double)value_of(s, 1, 20)[1], 0.999, 1e-6);
-    history_end(s->history);
-    assert_int_equal((int)history_count(s->history), 2);
-}
-
 STUDIO_TEST(paint_that_is_no_number_is_refused)
 {
-    const float broken[][2] = {{NAN, 0}, {0, INFINITY}, {11, 0}, {0, -2000}};
+    static const struct {
+        int coordinate, vertex;
+        float value[1][2];
+    } rows[] = {{0, 3, {{NAN, 0}}},      {0, 3, {{0, INFINITY}}},    {0, 3, {{11, 0}}}, {0, 3, {{0, -2000}}},
+                {0, VERTICES, {{0, 0}}}, {COORDINATES, 3, {{0, 0}}}, {0, 3, {{0, 0}}}}; // the last: no paint yet
     struct error error;
-    const int vertex = 3, beyond = VERTICES;
-    struct dab made = {0, 1, &vertex, NULL};
     history_begin(s->history, "Paint", 0);
-    made.values = broken;
-    assert_false(edit_paint(s->document, 0, &made, &error)); // no paint yet
-    new_paint(s);
-    for (int i = 0; i < 4; i++) {
-        made.values = &broken[i];
-        assert_false(edit_paint(s->document, 0, &made, &error));
+    for (int i = 6; i >= 0; i--) {
+        const struct dab made = {rows[i].coordinate, 1, &rows[i].vertex, rows[i].value};
+        if (edit_paint(s->document, 0, &made, &error)) fail_msg("row %d", i);
+        if (i == 6) new_paint(s);
     }
-    made = (struct dab){0, 1, &beyond, (const float[][2]){{0, 0}}};
-    assert_false(edit_paint(s->document, 0, &made, &error));
-    made = (struct dab){COORDINATES, 1, &vertex, (const float[][2]){{0, 0}}};
-    assert_false(edit_paint(s->document, 0, &made, &error));
     assert_true(paint_is_plain(rig_of(s)->painted));
     history_end(s->history);
 }
@@ -158,16 +156,13 @@ static void open_beside(struct studio *s, const char *name)
 static void assert_holds_paint(const struct studio *s, const char *path)
 {
     struct document *document = document_of_file(path);
-    const struct paint *paint = document_character(document, 0)->painted;
     assert_null(document_character(document, 0)->paint_file);
-    assert_non_null(paint);
-    assert_int_equal(paint->coordinates, COORDINATES);
-    assert_int_equal(paint->vertices, VERTICES);
-    assert_memory_equal(paint->values, rig_of(s)->painted->values, sizeof(float[COORDINATES * VERTICES][2]));
+    assert_same_paint(s, document);
     document_destroy(document);
 }
 
-/// Saved text reads back as itself, and only paint makes it version 2. A coordinate without paint is null.
+/// Saved text reads back as itself, and only paint makes it version 2. A coordinate without paint is null. What is not saved is in the
+/// recovery file.
 STUDIO_TEST(paint_is_saved_in_its_scene)
 {
     char *plain = text_of_document(s->document);
@@ -180,6 +175,9 @@ STUDIO_TEST(paint_is_saved_in_its_scene)
     assert_non_null(strstr(text, "\"wiggly\": 2,"));
     assert_non_null(strstr(text, "\"vertices\": 50,\n      \"paint\": [\n        null,\n        \"AAAA"));
     assert_loads_again(s->document);
+    assert_done(
+        scene_save_for(s->document, folder_path("kept"), &(struct scene_origin){.path = "/walk.json"}, &error));
+    assert_holds_paint(s, folder_path("kept"));
     while (history_undo(s->history)) continue;
     assert_prints(s->document, plain);
     free(plain);
@@ -196,8 +194,7 @@ STUDIO_TEST(paint_beside_a_scene_is_read_and_stays)
     save(&old);
     struct document *document = document_of_file(folder_path("walk.json"));
     assert_done(scene_read_paint(document, &error));
-    assert_memory_equal(document_character(document, 0)->painted->values, rig_of(s)->painted->values,
-                        sizeof(float[COORDINATES * VERTICES][2]));
+    assert_same_paint(s, document);
     assert_done(scene_save(document, folder_path("walk.json"), &error));
     assert_holds_paint(s, folder_path("walk.json"));
     assert_true(is_there("walk-paint.npy"));
@@ -273,22 +270,11 @@ TEST(other_layouts_are_read)
                   kind ? (const void *)swapped : (const void *)doubles, sizeof doubles);
         assert_done(scene_read_paint(s.document, &error));
         for (int i = 0; i < 4; i++) {
-            assert_near((double)rig_of(&s)->painted->values[i][0], doubles[i], 0);
-            assert_near((double)rig_of(&s)->painted->values[i][1], doubles[4 + i], 0);
+            assert_near(rig_of(&s)->painted->values[i][0], doubles[i], 0);
+            assert_near(rig_of(&s)->painted->values[i][1], doubles[4 + i], 0);
         }
         studio_close(&s);
     }
-}
-
-/// What is not saved is in the recovery file.
-STUDIO_TEST(a_recovery_file_keeps_paint)
-{
-    struct recovery_slot slot;
-    paint_stroke(s);
-    assert_done(recovery_claim(folder, &slot, &error));
-    assert_done(scene_save_for(s->document, slot.path, &(struct scene_origin){.path = "/walk.json"}, &error));
-    assert_holds_paint(s, slot.path);
-    recovery_release(&slot);
 }
 
 /// Paint of another model is said, kept, and not put on.
@@ -323,7 +309,7 @@ STUDIO_TEST(paint_goes_out_and_in_as_npy)
     struct paint *paint = paint_read(words[4], NULL);
     assert_non_null(paint);
     assert_int_equal(paint->vertices, character.vertex_count);
-    assert_near((double)paint->values[3][1], 0.5, 0);
+    assert_near(paint->values[3][1], 0.5, 0);
     words[4][strlen(words[4]) - 3] = 'x';
     assert_int_equal(command_export(6, words), 2);
     paint_drop(paint);
