@@ -33,32 +33,15 @@ struct trouble {
     int n, error;
 };
 
-/// Calls that change files; only these matter for a crash.
-static bool changes_files(unsigned long long call)
+/// Calls that change files; only these matter for a crash. Failing to close or remove a file has no remedy, so that is not tested.
+static bool counts(unsigned long long call, bool fails)
 {
-    switch (call) {
-    case SYS_openat:
-    case SYS_open:
-    case SYS_write:
-    case SYS_writev:
-    case SYS_fsync:
-    case SYS_rename:
-    case SYS_renameat:
-    case SYS_fchmod:
-    case SYS_fchown:
-    case SYS_fsetxattr:
-    case SYS_fremovexattr:
-    case SYS_close:
-        return true;
-    default:
-        return call == SYS_unlink || call == SYS_unlinkat || call == SYS_link || call == SYS_mkdir;
-    }
-}
-
-/// Failing to close or remove a file has no remedy, so it is not tested.
-static bool can_fail(unsigned long long call)
-{
-    return changes_files(call) && call != SYS_close && call != SYS_unlink && call != SYS_unlinkat;
+    static const unsigned long long calls[] = {
+        SYS_close,  SYS_unlink,   SYS_unlinkat, SYS_openat, SYS_open,      SYS_write,        SYS_writev, SYS_fsync,
+        SYS_rename, SYS_renameat, SYS_fchmod,   SYS_fchown, SYS_fsetxattr, SYS_fremovexattr, SYS_link,   SYS_mkdir};
+    size_t i = fails ? 3 : 0;
+    while (i < sizeof calls / sizeof *calls && calls[i] != call) i++;
+    return i < sizeof calls / sizeof *calls;
 }
 
 /// Threads' calls count, too. Returns the child's exit status, or -1 if it was killed; `*count` (may be NULL) receives the number of
@@ -104,8 +87,7 @@ static int trace(traced *run, void *user, struct trouble trouble, int *count)
             while (waitpid(-1, &status, __WALL) > 0) continue;
             return -1;
         } else if (registers.rax == (unsigned long long)-ENOSYS) { // at the call's entry
-            const bool counts = trouble.error > 0 ? can_fail(registers.orig_rax) : changes_files(registers.orig_rax);
-            if (counts && n++ == trouble.n) hit = stopped;
+            if (counts(registers.orig_rax, trouble.error > 0) && n++ == trouble.n) hit = stopped;
             if (hit != stopped || trouble.error <= 0) continue;
             registers.orig_rax = (unsigned long long)-1;
             ptrace(PTRACE_SETREGS, stopped, NULL, &registers);
@@ -161,11 +143,14 @@ static void mark(struct document *document, int version)
     document->fps = version;
 }
 
+/// The exit status of a child: whoever waits for what failed is told.
+static int status_of(bool good, const struct error *error) { return good ? 0 : error->text[0] ? 3 : 9; }
+
 static int save(void *user)
 {
     struct job *job = user;
     struct error error = {0};
-    return scene_save(job->document, job->document->path, &error) ? 0 : error.text[0] ? 3 : 9;
+    return status_of(scene_save(job->document, job->document->path, &error), &error);
 }
 
 /// Scene and paint belong together.
@@ -205,6 +190,8 @@ static bool is_one_of_many(int n, int count)
     return n % (count / MIDDLE) != 0;
 }
 
+static void begin_old(void) { command("rm -rf %s/new && cp -r %s/old %s/new"); }
+
 /// Runs it as it is, then with each call failing in three ways, then with each call being the last.
 static void torment(const char *what, struct job *job)
 {
@@ -212,7 +199,7 @@ static void torment(const char *what, struct job *job)
     int runs = 0;
     for (int e = 0; e < 4; e++) {
         int count = 0;
-        command("rm -rf %s/new && cp -r %s/old %s/new");
+        begin_old();
         assert_int_equal(job->version(), OLD);
         assert_int_equal(trace(job->run, job, (struct trouble){-1, errors[e]}, &count), 0);
         assert_int_equal(job->version(), NEW);
@@ -220,7 +207,7 @@ static void torment(const char *what, struct job *job)
         for (int n = 0; n < count; n++) {
             if (is_one_of_many(n + e, count)) continue;
             runs++;
-            command("rm -rf %s/new && cp -r %s/old %s/new");
+            begin_old();
             const int status = trace(job->run, job, (struct trouble){n, errors[e]}, NULL), version = job->version();
             const bool good = version == NEW || (version == OLD && status != 0);
             if (!good || status > 3)
@@ -253,7 +240,7 @@ TEST(a_save_with_paint)
     document_destroy(job.document);
 }
 
-/// Unsaved work, by autosave: whoever waits for that is told.
+/// Unsaved work, by autosave.
 static int autosave(void *user)
 {
     struct job *job = user;
@@ -262,7 +249,7 @@ static int autosave(void *user)
     struct autosave *autosave = autosave_open(&job->slot);
     const bool good = autosave_flush(autosave, &unsaved, &error);
     autosave_close(autosave, true);
-    return good ? 0 : error.text[0] ? 3 : 9;
+    return status_of(good, &error);
 }
 
 static int autosaved_version(void)
@@ -321,16 +308,16 @@ static int make_film(const struct film_file_kind *kind, const char *path)
     off_t bytes;
     for (size_t i = 0; i < sizeof pixels; i++) pixels[i] = (unsigned char)(i * i / 97);
     struct film_file *film = kind->open(path, &(struct film_shape){SIDE, SIDE, 24, 2, film_mp4}, &error);
-    if (!film) return error.text[0] ? 3 : 9;
+    if (!film) return status_of(false, &error);
     enum film_state state = FILM_DONE;
-    for (int i = 0; i < 2 && state == FILM_DONE; i++) {
-        while ((state = kind->put(film, pixels + i * 4 * SIDE * SIDE, true, &error)) == FILM_RUNS) continue;
-    }
-    if (state == FILM_DONE) {
-        while ((state = kind->finish(film, true, &bytes, &error)) == FILM_RUNS) continue;
+    for (int i = 0; i < 3 && state == FILM_DONE; i++) {
+        do
+            state = i < 2 ? kind->put(film, pixels + i * 4 * SIDE * SIDE, true, &error)
+                          : kind->finish(film, true, &bytes, &error);
+        while (state == FILM_RUNS);
     }
     kind->close(film);
-    return state == FILM_DONE ? 0 : error.text[0] ? 3 : 9;
+    return status_of(state == FILM_DONE, &error);
 }
 
 static int export_it(void *user)
