@@ -149,15 +149,6 @@ static int write_picture(void *user)
     return access(path, F_OK) != 0 && strstr(error.text, "emory") ? 3 : 5;
 }
 
-TEST(fonts) { starve("fonts", read_fonts, NULL, 300); }
-
-TEST(pictures)
-{
-    char path[128];
-    snprintf(path, sizeof path, "%s", folder_path("picture.png"));
-    starve("a picture", write_picture, path, 300);
-}
-
 /// Tokens that end in every way the reader looks past, each longer than any before it; it is whole where it is said to be read.
 static int read_tokens(void *user)
 {
@@ -173,9 +164,6 @@ static int read_tokens(void *user)
     json_decref(json);
     return whole ? 0 : 5;
 }
-
-/// Each allocation, for only some fill the reader's buffer.
-TEST(json) { starve("JSON", read_tokens, NULL, 1000); }
 
 /// A command line, what it writes, and what is in that with all of its memory.
 struct job {
@@ -236,38 +224,11 @@ static void check_job(void *user, int status)
     free(said);
 }
 
-/// A command with `%s` for the test's folder.
-static void starve_command(int (*run)(int argc, char **argv), const char *output, const char *format, long most)
-{
-    char line[1024];
-    struct job job = {.line = line, .run = run};
-    snprintf(line, sizeof line, format, folder, folder, folder, folder); // NOLINT
-    if (output) snprintf(job.output, sizeof job.output, "%s", folder_path(output));
-    const int status = starve_once(run_job, &job, -1, 0, NULL);
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        fail_msg("%s: status %x with all of its memory", line, status);
-    if (output) job.expected = content(job.output, &job.size);
-    starve_checked(line, run_job, check_job, &job, most);
-    free(job.expected);
-}
-
-TEST(check)
-{
-    starve_command(command_check, NULL, "check assets/scenes/tail.json", 1100);
-    starve_command(command_check, NULL, "check assets/scenes/hands.json", 150);
-    starve_command(command_check, NULL, "check assets/scenes/dog.json", 100);
-}
-
-TEST(solve)
-{
-    starve_command(command_solve, "out.csv", "solve assets/scenes/tail.json -o %s/out.csv", 400);
-    starve_command(command_solve, "out.csv", "solve assets/scenes/hands.json -o %s/out.csv", 2000);
-}
-
 enum { ROWS = 5, BONES = 4 };
 
-/// A ribbon of four bones with a clip and a picture: all that a character has, in a thirtieth of the dog's allocations, so that each can fail.
-static void write_ribbon(const char *path)
+/// ribbon.gltf, of four bones with a clip and a picture: all that a character has, in a thirtieth of the dog's allocations, so that each can
+/// fail.
+static void write_ribbon(void)
 {
     static struct builder b;
     float at[ROWS][2][3] = {{{0}}}, uv[ROWS][2][2] = {{{0}}}, weights[ROWS][2][4] = {{{0}}},
@@ -314,7 +275,7 @@ static void write_ribbon(const char *path)
             "{\"name\":\"tail_3\",\"translation\":[0,0.25,0]}],\"scenes\":[{\"nodes\":[0,1]}],\"scene\":0,"
             "\"animations\":[{\"name\":\"Sway\",\"samplers\":[{\"input\":5,\"output\":6}],\"channels\":["
             "{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"rotation\"}}]}]");
-    assert_true(file_write_atomic(path, text, strlen(text), NULL));
+    folder_file("ribbon.gltf", text);
 }
 
 /// A model is read with its picture, or not at all: "not enough memory" is not said as if the picture were at fault.
@@ -328,66 +289,86 @@ static int read_model(void *user)
     return whole ? 0 : 5;
 }
 
-TEST(models)
+/// Of the reader of tokens each, for only some fill its buffer.
+TEST(readers_and_writers)
 {
-    char path[128];
-    snprintf(path, sizeof path, "%s", folder_path("ribbon.gltf"));
-    write_ribbon(path);
-    starve("a model", read_model, path, 1000);
-}
-
-/// The dog itself only in a sample: it has 15,000 to 30,000 allocations, which take an hour.
-static void starve_dog(int (*run)(int argc, char **argv), const char *output, const char *format)
-{
-    if (!getenv("STARVE_ALL")) starve_command(run, output, format, 100);
-}
-
-TEST(export_)
-{
-    static const char *const endings[] = {"glb", "gltf", "usda", "bvh", "csv", "npy"};
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i += (size_t)quick_or_all(2, 1)) {
-        char name[16], line[128];
-        snprintf(name, sizeof name, "out.%s", endings[i]);
-        snprintf(line, sizeof line, "export assets/scenes/tail.json --frames 0:3 -o %%s/out.%s", endings[i]);
-        starve_command(command_export, name, line, 150);
+    static const struct {
+        const char *what, *file;
+        starved *run;
+        long most;
+    } rows[] = {{"fonts", "", read_fonts, 300},
+                {"a picture", "picture.png", write_picture, 300},
+                {"JSON", "", read_tokens, 1000},
+                {"a model", "ribbon.gltf", read_model, 1000}};
+    write_ribbon();
+    for (int i = 0; i < 4; i++) {
+        char path[128];
+        snprintf(path, sizeof path, "%s", folder_path(rows[i].file));
+        starve(rows[i].what, rows[i].run, path, rows[i].most);
     }
 }
 
-TEST(export_character)
-{
-    starve_dog(command_export, "out.glb", "export assets/scenes/dog.json --frames 0:3 -o %s/out.glb");
-    starve_dog(command_export, "out.usda", "export assets/scenes/dog.json --frames 0:3 -o %s/out.usda");
-    static char rig[] = "rig", chain[] = "--chain=tail_1:tail_3", to[] = "-o", ribbon[128], ribbon_scene[128];
-    snprintf(ribbon, sizeof ribbon, "%s", folder_path("ribbon.gltf"));
-    snprintf(ribbon_scene, sizeof ribbon_scene, "%s", folder_path("ribbon.json"));
-    write_ribbon(ribbon);
-    assert_int_equal(command_rig(5, (char *[]){rig, ribbon, chain, to, ribbon_scene, NULL}), 0);
-    starve_command(command_export, "out.glb", "export %s/ribbon.json --frames 0:3 -o %s/out.glb", 200);
-    starve_command(command_export, "out.usda", "export %s/ribbon.json --frames 0:3 -o %s/out.usda", 200);
-}
+/// The dog itself only in a sample: it has 15,000 to 30,000 allocations, which take an hour. OpenBLAS does not survive as it starts.
+enum kind { ALL, DOG, THOROUGH, LAPACK };
 
-TEST(rig)
-{
-    starve_dog(command_rig, "dog.json", "rig assets/models/dog.glb --chain tail_1:tail_8 -o %s/dog.json");
-    starve_dog(command_rig, "dog.glb", "rig assets/models/dog.glb --chain ear_1_L -o %s/dog.glb");
-    write_ribbon(folder_path("ribbon.gltf"));
-    starve_command(command_rig, "out.json", "rig %s/ribbon.gltf --chain tail_1:tail_3 -o %s/out.json", 200);
-    starve_command(command_rig, "out.glb", "rig %s/ribbon.gltf --chain tail_1:tail_3 -o %s/out.glb", 2000);
-}
+static const struct {
+    enum kind kind;
+    int (*run)(int argc, char **argv);
+    const char *output, *line; ///< %s: the test's folder
+    long most;
+} commands[] = {
+    {ALL, command_check, NULL, "check assets/scenes/tail.json", 1100},
+    {ALL, command_check, NULL, "check assets/scenes/hands.json", 150},
+    {ALL, command_check, NULL, "check assets/scenes/dog.json", 100},
+    {ALL, command_solve, "out.csv", "solve assets/scenes/tail.json -o %s/out.csv", 400},
+    {ALL, command_solve, "out.csv", "solve assets/scenes/hands.json -o %s/out.csv", 2000},
+    {ALL, command_export, "out.glb", "export assets/scenes/tail.json --frames 0:3 -o %s/out.glb", 150},
+    {THOROUGH, command_export, "out.gltf", "export assets/scenes/tail.json --frames 0:3 -o %s/out.gltf", 150},
+    {ALL, command_export, "out.usda", "export assets/scenes/tail.json --frames 0:3 -o %s/out.usda", 150},
+    {THOROUGH, command_export, "out.bvh", "export assets/scenes/tail.json --frames 0:3 -o %s/out.bvh", 150},
+    {ALL, command_export, "out.csv", "export assets/scenes/tail.json --frames 0:3 -o %s/out.csv", 150},
+    {THOROUGH, command_export, "out.npy", "export assets/scenes/tail.json --frames 0:3 -o %s/out.npy", 150},
+    {DOG, command_export, "out.glb", "export assets/scenes/dog.json --frames 0:3 -o %s/out.glb", 100},
+    {DOG, command_export, "out.usda", "export assets/scenes/dog.json --frames 0:3 -o %s/out.usda", 100},
+    {DOG, command_rig, "dog.json", "rig assets/models/dog.glb --chain tail_1:tail_8 -o %s/dog.json", 100},
+    {DOG, command_rig, "dog.glb", "rig assets/models/dog.glb --chain ear_1_L -o %s/dog.glb", 100},
+    {ALL, command_rig, "out.glb", "rig %s/ribbon.gltf --chain tail_1:tail_3 -o %s/out.glb", 2000},
+    {ALL, command_rig, "ribbon.json", "rig %s/ribbon.gltf --chain tail_1:tail_3 -o %s/ribbon.json", 200},
+    {ALL, command_export, "out.glb", "export %s/ribbon.json --frames 0:3 -o %s/out.glb", 200},
+    {ALL, command_export, "out.usda", "export %s/ribbon.json --frames 0:3 -o %s/out.usda", 200},
+    {ALL, command_simulate, "box.npy",
+     "simulate %s/box.obj --shake side --tets 60 --seconds 1 --fps 24 --substeps 2 -o %s/box.npy", 200},
+    {LAPACK, command_analyze, "box.glb",
+     "analyze %s/box.npy --rest %s/box.rest.obj --fps 24 --method cpca --modes 1 -o %s/box.glb", 200},
+};
 
-TEST(simulate_and_analyze)
+/// With all of its memory, then without. What it writes is left for the next.
+TEST(commands_one_after_the_other)
 {
-    static const char box[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
-                              "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
-    assert_true(file_write_atomic(folder_path("box.obj"), box, sizeof box - 1, NULL));
-    starve_command(command_simulate, "box.npy",
-                   "simulate %s/box.obj --shake side --tets 60 --seconds 1 --fps 24 --substeps 2 -o %s/box.npy", 200);
-    struct lapack lapack; // OpenBLAS does not survive that itself as it starts
+    struct lapack lapack;
     char description[128];
-    if (!lapack_load(&lapack, description, sizeof description)) return;
-    starve_command(command_analyze, "box.glb",
-                   "analyze %s/box.npy --rest %s/box.rest.obj --fps 24 --method cpca --modes 1 -o %s/box.glb", 200);
-    lapack_unload(&lapack);
+    const bool has_lapack = lapack_load(&lapack, description, sizeof description);
+    write_ribbon();
+    folder_file("box.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                           "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n");
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+        char line[1024];
+        struct job job = {.line = line, .run = commands[i].run};
+        if (commands[i].kind == DOG        ? getenv("STARVE_ALL") != NULL
+            : commands[i].kind == THOROUGH ? !is_thorough()
+                                           : commands[i].kind == LAPACK && !has_lapack)
+            continue;
+        snprintf(line, sizeof line, commands[i].line, folder, folder, folder); // NOLINT
+        if (commands[i].output) snprintf(job.output, sizeof job.output, "%s", folder_path(commands[i].output));
+        const int status = starve_once(run_job, &job, -1, 0, NULL);
+        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+            fail_msg("%s: status %x with all of its memory", line, status);
+        if (job.output[0]) job.expected = content(job.output, &job.size);
+        starve_checked(line, run_job, check_job, &job, commands[i].most);
+        if (job.output[0]) assert_done(file_write_atomic(job.output, job.expected, job.size, &error));
+        free(job.expected);
+    }
+    if (has_lapack) lapack_unload(&lapack);
 }
 
 enum { STEPS = 12 };
