@@ -18,12 +18,6 @@ static void open_still(struct blind *b, const char *scene)
     if (core_of(b)->view.playback.playing) blind_key(b, KEY_SPACE, 0);
 }
 
-static void point(struct blind *b, float x, float y, unsigned mods)
-{
-    blind_send(b, (struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = mods});
-    blind_frame(b);
-}
-
 static void find(struct blind *b, const char *target, float at[2])
 {
     assert_done(editor_target(b->app.work.editor, target, &at[0], &at[1], &error));
@@ -33,23 +27,20 @@ static void find(struct blind *b, const char *target, float at[2])
 static void pull(struct blind *b, const char *target, double right, double down, unsigned mods, float at[2])
 {
     find(b, target, at);
-    point(b, at[0], at[1], mods);
-    blind_send(b, (struct event){.kind = EVENT_BUTTON,
-                                 .button = BUTTON_LEFT,
-                                 .action = ACTION_PRESS,
-                                 .clicks = 1,
-                                 .x = at[0],
-                                 .y = at[1],
-                                 .mods = mods});
-    for (int i = 1; i <= STEPS; i++)
-        point(b, at[0] + (float)(right * i / STEPS), at[1] + (float)(down * i / STEPS), mods);
-    for (int i = 0; i < SETTLE; i++) blind_frame(b);
+    blind_point(b, at[0], at[1]);
+    for (int i = 0; i <= STEPS; i++) {
+        const float x = at[0] + (float)(right * i / STEPS), y = at[1] + (float)(down * i / STEPS);
+        struct event event = {.kind = EVENT_POINTER, .x = x, .y = y, .mods = mods};
+        if (i == 0) event.kind = EVENT_BUTTON, event.action = ACTION_PRESS, event.clicks = 1;
+        blind_send(b, event);
+        if (i > 0) blind_frame(b);
+    }
+    blind_frames(b, SETTLE);
 }
 
 static void let_go(struct blind *b, const float at[2])
 {
-    blind_send(b, (struct event){
-                      .kind = EVENT_BUTTON, .button = BUTTON_LEFT, .action = ACTION_RELEASE, .x = at[0], .y = at[1]});
+    blind_button(b, BUTTON_LEFT, ACTION_RELEASE, at[0], at[1]);
     blind_frame(b);
 }
 
@@ -86,12 +77,12 @@ TEST(a_pull_raises_x_at_most_twice_as_far_as_the_best_direction_needs)
             double least = INFINITY, raise = 0;
             char target[64];
             float at[2], to[2];
-            point(b, 5, 5, 0);
+            blind_point(b, 5, 5);
             playback_seek(core_of(b), round(document->first_frame +
                                             (double)(document->last_frame - document->first_frame) * f / FRAMES));
             blind_frame(b);
             find(b, rows[r].target, at);
-            point(b, at[0], at[1], 0);
+            blind_point(b, at[0], at[1]);
             const struct hover *held = &core_of(b)->input.hover; // where the limb covers itself it is another point
             snprintf(target, sizeof target, rows[r].along ? rows[r].along : rows[r].target,
                      (held->joint + held->fraction) / (rows[r].joints + !rows[r].joints));
