@@ -1,4 +1,4 @@
-/// What commands say and refuse, a row for each: options, what they read, what they would write over. And the table of options itself.
+/// What commands say and refuse, a row for each: options, what they read, what they would write over.
 #include "folder.h"
 
 #include "commands/commands.h"
@@ -381,6 +381,31 @@ static const struct {
     int status;
     const char *line, *says;
 } rows[] = {
+    // the table of options: values in every spelling, names that look like options, and what is refused
+    {0, "solve --solver=band --output=b.csv c.json", ""},
+    {0, "solve c.json -o no/b.csv --output=b.csv", ""}, // the last counts
+    {1, "solve -- --help", "--help: cannot be opened"},
+    {1, "solve -", "-: cannot be opened"}, // by itself it is a name
+    {0, "solve c.json -o --help", ""},     // a value may begin with a dash
+    {2, "solve c.json c.json", "'c.json' is one argument too many"},
+    {2, "solve ", "expected scene.json, got an empty argument"},
+    {2, "solve -x", "unknown option -x"},
+    {2, "solve --outptu", "unknown option --outptu (did you mean --output?)"},
+    {2, "export s.json --quiet=yes", "--quiet takes no value"},
+    {2, "solve c.json -o", "--output needs a value"},
+    {2, "solve c.json --output=", "--output: expected FILE, got nothing"},
+    {2, "solve c.json --out=b.csv", "unknown option --out"},
+    {2, "solve c.json --solver", "--solver needs a value: chain|band"},
+    {2, "solve c.json --solver=", "--solver: expected chain or band, got ''"},
+    {2, "solve c.json --solver Band", "--solver: expected chain or band, got 'Band'"},
+    {2, "solve c.json --solver ban", "--solver: expected chain or band, got 'ban'"},
+    {2, "solve c.json --solver bands", "--solver: expected chain or band, got 'bands'"},
+    {2, "live --frames 7x", "--frames: expected a whole number"},
+    {2, "live --frames 99999999999999999999", "--frames: expected a whole number"},
+    {2, "live --size 1280x", "--size: expected"},
+    {2, "live --size 1280x720x2", "--size: expected WIDTHxHEIGHT, each from 320 to 8192, got '1280x720x2'"},
+    {2, "live --size 1280x9000", "--size: expected"},
+    {2, "live --scale 0.5x", "--scale: expected a number from 0.5 to 4, got '0.5x'"},
     // live
     {2, "live --frames", "--frames needs a value"},
     {2, "live --frames ten", "expected a whole number from 1 to 10000000, got 'ten'"},
@@ -406,7 +431,6 @@ static const struct {
     // solve, check and log
     {2, "solve", "scene.json"},
     {2, "solve --\x1b[31m", "unknown option --\\x1b[31m"},
-    {2, "solve c.json --solver tree", "--solver: expected chain or band, got 'tree'"},
     {2, "check a.json b.json", "'b.json'"},
     {1, "solve missing.json", "missing.json"},
     {1, "solve bad.json -o old.csv", "bad.json:1: "},
@@ -678,96 +702,6 @@ TEST(an_inexact_curve_is_said)
     folder_file("chain.json", text);
     expect(0, "solve chain.json", "\"chain\": solved, but the estimated error exceeds the tolerance: ");
     assert_non_null(strstr(command.err, " of the curve's size\n"));
-}
-
-// --- the table of options
-
-static bool loud;
-static const char *out, *operands[2];
-static int frames, size[2], method;
-static double scale;
-
-enum { SOLVER_CHAIN = 1, SOLVER_BAND };
-
-static const struct option_spec specs[] = {
-    {"--loud", "a flag", OPTION_FLAG, &loud, 0, 0},
-    {"-o, --output FILE", "a text", OPTION_TEXT, &out, 0, 0},
-    {"--frames N", "a whole number", OPTION_INT, &frames, 1, 100},
-    {"--scale S", "a number", OPTION_REAL, &scale, 0.5, 4},
-    {"--size WxH", "a size", OPTION_SIZE, size, 16, 8192},
-    {"--solver chain|band", "a method", OPTION_WORD, &method, 0, 0},
-    {0},
-};
-
-static const struct usage usage = {
-    .command = "test", .operands = "a [b]", .summary = "of the tests", .options = specs, .operand_maximum = 2};
-
-/// What a line gives: all values in one text, or nothing where it is refused, which leaves every target alone.
-static const char *parse(const char *line)
-{
-    static char text[256], given[256];
-    char *argv[17] = {"test"};
-    int argc = 1;
-    loud = false;
-    out = operands[0] = operands[1] = NULL;
-    frames = size[0] = size[1] = -1;
-    scale = -1;
-    method = SOLVER_CHAIN;
-    snprintf(text, sizeof text, "%s", line);
-    for (char *word = strtok(text, " "); word && argc < 16; word = strtok(NULL, " ")) argv[argc++] = word;
-    const int result = options_parse(&usage, argc, argv, operands);
-    if (result != OPTIONS_RUN && (frames != -1 || scale > -1 || size[0] != -1 || method != SOLVER_CHAIN))
-        fail_msg("'%s' is refused and sets something", line);
-    if (result != OPTIONS_RUN) return result == OPTIONS_WRONG ? "" : "neither";
-    snprintf(given, sizeof given, "%s %s%s o=%s %d %g %dx%d %s", operands[0], operands[1] ? operands[1] : "-",
-             loud ? " loud" : "", out ? out : "-", frames, scale, size[0], size[1],
-             method == SOLVER_BAND ? "band" : "chain");
-    return given;
-}
-
-TEST(values_in_every_spelling)
-{
-    static const struct {
-        const char *line, *gives;
-    } spellings[] = {
-        {"a --loud -o x --frames=7 --scale 1.5 b --size 1280x720", "a b loud o=x 7 1.5 1280x720 chain"},
-        {"a --solver band", "a - o=- -1 -1 -1x-1 band"},
-        {"a --solver=band --solver=chain", "a - o=- -1 -1 -1x-1 chain"},
-        {"-- --loud", "--loud - o=- -1 -1 -1x-1 chain"},
-        {"-", "- - o=- -1 -1 -1x-1 chain"},                // by itself it is a name
-        {"a -o --loud", "a - o=--loud -1 -1 -1x-1 chain"}, // a value may begin with a dash
-    };
-    for (size_t i = 0; i < COUNT(spellings); i++) assert_string_equal(parse(spellings[i].line), spellings[i].gives);
-}
-
-TEST(spellings_that_are_refused)
-{
-    static const char *const lines[] = {"",
-                                        "a b c",
-                                        "a --lod",
-                                        "a -x",
-                                        "a --loud=yes",
-                                        "a --frames",
-                                        "a --frames 0",
-                                        "a --frames 101",
-                                        "a --frames 7x",
-                                        "a --frames=",
-                                        "a --out=",
-                                        "a --scale nan",
-                                        "a --scale 1e400",
-                                        "a --scale 0.4",
-                                        "a --size 1280",
-                                        "a --size 1280x",
-                                        "a --size 8x720",
-                                        "a --size 1280x720x2",
-                                        "a --size 1280x9000",
-                                        "a --solver",
-                                        "a --solver Band",
-                                        "a --solver bands",
-                                        "a --solver=",
-                                        "a --frames 99999999999999999999"};
-    for (size_t i = 0; i < COUNT(lines); i++)
-        if (*parse(lines[i])) fail_msg("'%s' is taken as '%s'", lines[i], parse(lines[i]));
 }
 
 TEST(the_nearest_word)
