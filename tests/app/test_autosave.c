@@ -17,15 +17,8 @@
 
 static void wait_a_moment(void) { nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL); }
 
-static void run(const char *format)
-{
-    char line[512];
-    snprintf(line, sizeof line, format, folder, folder, folder, folder); // NOLINT
-    if (system(line) != 0) fail_msg("%s", line);
-}
-
 /// Empties the folder.
-static void begin(void) { run("rm -rf %s && mkdir -p %s/wiggly"); }
+static void begin(void) { folder_run("rm -rf %s && mkdir -p %s/wiggly"); }
 
 // --- a document and its recovery file
 
@@ -176,7 +169,7 @@ KEEPER_TEST(a_folder_that_is_gone_is_said_once)
 {
     struct error error = {0};
     int complaints = 0;
-    run("mv %s %s.away");
+    folder_run("mv %s %s.away");
     world_must(&k->world, edit_insert(&k->world, SWAY, 5, 5));
     for (int i = 0; i < 100; i++) {
         const struct autosave_work work = work_of(k);
@@ -185,7 +178,7 @@ KEEPER_TEST(a_folder_that_is_gone_is_said_once)
     }
     assert_int_equal(complaints, 1);
     assert_non_null(strstr(error.text, folder));
-    run("mv %s.away %s");
+    folder_run("mv %s.away %s");
     update(k, 1000);
     update_until(k, 2000, true);
 }
@@ -267,7 +260,7 @@ TEST(a_save_that_is_killed_leaves_one_of_two)
     world_close(&large);
 }
 
-// --- a large scene in the app's frames: soon after an edit, of one moment, and there after a kill
+// --- a large scene in the app's frames: soon after an edit, and of one moment
 
 enum { SPLINES = 4, RATE = 60 };
 
@@ -379,33 +372,6 @@ TEST_OF(struct large, l, large_open(l), (autosave_close(l->autosave, false), bli
     free(after);
 }
 
-/// A program that is killed before the next copy leaves the last ones that were written.
-TEST(a_kill_leaves_what_was_written)
-{
-    struct recovery_entry entry;
-    int status;
-    fflush(stdout);
-    const pid_t child = fork();
-    if (child == 0) {
-        struct large l = {.frame = 0};
-        large_open(&l);
-        frame(&l, 'I', 0);
-        copy(&l);
-        while (!is_there(l.autosave)) wait_a_moment();
-        frame(&l, KEY_RIGHT, 0);
-        frame(&l, 'I', 0);
-        raise(SIGKILL);
-    }
-    assert_int_equal(waitpid(child, &status, 0), child);
-    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
-    assert_true(recovery_find(folder, NULL, &entry, NULL));
-    struct document *document = document_of_file(entry.slot.path);
-    assert_int_equal(document->splines[0]->knot_count, knots() + 1);
-    assert_int_equal(document->splines[SPLINES - 1]->knot_count, knots());
-    recovery_release(&entry.slot);
-    document_destroy(document);
-}
-
 // --- a start after a kill: which scene is on the table, and what is offered
 
 static struct editor *e(const struct blind *b) { return b->app.work.editor; }
@@ -514,16 +480,16 @@ TEST(autosave_that_fails_is_marked)
     struct blind b;
     begin();
     blind_arrive(&b, folder_file("asked.json", ASKED));
-    run("mv %s/wiggly %s/away");
+    folder_run("mv %s/wiggly %s/away");
     blind_keys(&b, "I");
     go_on_until(&b, true);
     assert_said(e(&b), "Unsaved work has no recovery file");
     blind_keys(&b, "Esc");
     assert_string_equal(said(e(&b)), "");
     assert_true(is_marked(&b));
-    run("mv %s/away %s/wiggly");
+    folder_run("mv %s/away %s/wiggly");
     go_on_until(&b, false);
-    run("mv %s/wiggly %s/away");
+    folder_run("mv %s/wiggly %s/away");
     blind_keys(&b, "Right I");
     go_on_until(&b, true);
     blind_keys(&b, "^S");
@@ -612,7 +578,7 @@ TEST(no_memory_ends_the_program_with_one_sentence)
         assert_done(file_read(folder_path("said"), 1 << 16, &said_last, &size, &error));
         assert_string_equal(said_last, "wiggly: out of memory\n");
         free(said_last);
-        run(rows[i].then);
+        folder_run(rows[i].then);
     }
 }
 

@@ -45,17 +45,10 @@ static bool holds(const char *path, const char *name)
     return strstr(text, quoted) != NULL;
 }
 
-static void run(const char *format)
-{
-    char line[512];
-    snprintf(line, sizeof line, format, folder, folder, folder, folder, folder); // NOLINT
-    if (system(line) != 0) fail_msg("%s", line);
-}
-
 /// A scene with a knot that is not saved, in an empty folder that everybody may read.
 static void open_mine(struct blind *b)
 {
-    run("rm -rf %s && mkdir %s && chmod 755 %s");
+    folder_run("rm -rf %s && mkdir %s && chmod 755 %s");
     write_scene(SCENE("mine"));
     blind_open(b, scene());
     blind_frame(b);
@@ -107,7 +100,7 @@ MINE_TEST(a_figure_asks_before_it_replaces_work)
     }
 }
 
-// --- a disk that is full, a folder that is locked, a program that is killed
+// --- a disk that is full, a folder that is locked, a program that ends
 
 static void assert_knots_in_file(const char *path, int knots)
 {
@@ -125,7 +118,7 @@ static void assert_save_fails(struct blind *b)
     assert_false(is_saved(b));
     assert_int_equal(first_spline(b)->knot_count, 1);
     assert_knots_in_file(scene(), 0);
-    run("[ \"$(ls -A %s)\" = walk.json ]");
+    folder_run("[ \"$(ls -A %s)\" = walk.json ]");
 }
 
 /// A limit of the process stands for the disk that ends. It succeeds once there is nothing in its way.
@@ -148,22 +141,7 @@ MINE_TEST(work_outlives_a_full_disk_and_a_locked_folder)
     blind_keys(b, "^S");
     assert_true(is_saved(b));
     assert_knots_in_file(scene(), 1);
-    run("[ \"$(ls -A %s)\" = walk.json ]");
-}
-
-/// While it saves again and again, a knot more or less each time.
-MINE_TEST(a_file_outlives_a_program_that_is_killed)
-{
-    for (int i = 0; i < 20; i++) {
-        const pid_t child = fork();
-        assert_true(child >= 0);
-        while (child == 0) blind_keys(b, "^Z ^S ^Y ^S");
-        nanosleep(&(struct timespec){.tv_nsec = 3000000 + 700000 * i}, NULL);
-        assert_int_equal(kill(child, SIGKILL), 0);
-        assert_int_equal(waitpid(child, NULL, 0), child);
-        struct document *document = document_of_file(scene());
-        document_destroy(document);
-    }
+    folder_run("[ \"$(ls -A %s)\" = walk.json ]");
 }
 
 /// Rescues the work, and returns where it is then.
@@ -321,7 +299,7 @@ MINE_TEST(the_content_counts)
     blind_keys(b, "^S");
     assert_int_equal(asked(e(b)), DIALOG_CHANGED);
     blind_keys(b, "K +I");
-    run("cd %s && cp walk.json copy && mv copy walk.json && touch -d 2001-01-01 walk.json");
+    folder_run("cd %s && cp walk.json copy && mv copy walk.json && touch -d 2001-01-01 walk.json");
     focus(b, DIALOG_NONE);
     assert_int_equal(unlink(scene()), 0); // nor is one that is gone: saving loses nobody's work
     focus(b, DIALOG_NONE);
@@ -456,7 +434,7 @@ TEST(what_the_scene_is_read_from_stays)
                 {REQUEST_EXPORT, "walk.csv"}};
     struct blind b;
     char own[128];
-    run("cp assets/models/dog.glb %s && ln -s dog.glb %s/linked.glb");
+    folder_run("cp assets/models/dog.glb %s && ln -s dog.glb %s/linked.glb");
     strcpy(own, folder_file("walk.csv", "{\"wiggly\": 1, \"frames\": [0, 9], \"rigs\": "
                                         "[{\"type\": \"model\", \"model\": \"dog.glb\"}]}"));
     const uint64_t model = file_content(folder_path("dog.glb")), before = file_content(own);

@@ -124,13 +124,6 @@ static const char *work(const char *name)
     return paths[next];
 }
 
-static void command(const char *format)
-{
-    char line[512];
-    snprintf(line, sizeof line, format, folder, folder, folder, folder); // NOLINT
-    assert_int_equal(system(line), 0);
-}
-
 /// Gives document and paint a mark of their version, as unsaved edits.
 static void mark(struct document *document, int version)
 {
@@ -176,7 +169,7 @@ static void save_next(void)
     assert_done(scene_save(document, document->path, &error));
     document_destroy(document);
     assert_int_equal(saved_version(), NEXT);
-    command("test $(ls -A %s/new | wc -l) = 1 || { ls -A %s/new >&2; false; }");
+    folder_run("test $(ls -A %s/new | wc -l) = 1 || { ls -A %s/new >&2; false; }");
 }
 
 /// Of hundreds of writes of one large file those in the middle differ in nothing: some of them are tried, and all with TRACE_ALL. `make test`
@@ -190,7 +183,7 @@ static bool is_one_of_many(int n, int count)
     return n % (count / MIDDLE) != 0;
 }
 
-static void begin_old(void) { command("rm -rf %s/new && cp -r %s/old %s/new"); }
+static void begin_old(void) { folder_run("rm -rf %s/new && cp -r %s/old %s/new"); }
 
 /// Runs it as it is, then with each call failing in three ways, then with each call being the last.
 static void torment(const char *what, struct job *job)
@@ -221,14 +214,14 @@ static void torment(const char *what, struct job *job)
 
 static struct document *painted_scene(void)
 {
-    command("rm -rf %s/old %s/new && mkdir %s/new");
+    folder_run("rm -rf %s/old %s/new && mkdir %s/new");
     struct document *document = document_of_text(scene);
     document->folder = strdup(work("x"));
     *strrchr(document->folder, '/') = '\0';
     document_set_path(document, work("walk.json"));
     mark(document, OLD);
     assert_done(scene_save(document, document->path, &error));
-    command("cp -r %s/new %s/old");
+    folder_run("cp -r %s/new %s/old");
     mark(document, NEW);
     return document;
 }
@@ -264,11 +257,11 @@ TEST(unsaved_work)
 {
     struct job job = {autosave, autosaved_version, NULL, painted_scene(), {.lock = -1}};
     snprintf(job.slot.path, sizeof job.slot.path, "%s", work("recovery-1"));
-    command("rm -rf %s/old/*");
+    folder_run("rm -rf %s/old/*");
     job.document->fps = OLD;
-    command("rm -rf %s/new && mkdir %s/new");
+    folder_run("rm -rf %s/new && mkdir %s/new");
     assert_int_equal(autosave(&job), 0);
-    command("cp %s/new/recovery-1 %s/old");
+    folder_run("cp %s/new/recovery-1 %s/old");
     job.document->fps = NEW;
     torment("unsaved work", &job);
     document_destroy(job.document);
@@ -359,9 +352,9 @@ TEST(exports)
         if (output->film == &film_ffmpeg && !has_ffmpeg) continue;
         if (output->is_like_another && !getenv("TRACE_ALL")) continue;
         if (output->film && !is_thorough()) continue;
-        command("rm -rf %s/old %s/new && mkdir %s/new");
+        folder_run("rm -rf %s/old %s/new && mkdir %s/new");
         assert_int_equal(trace(export_it, NULL, (struct trouble){-1, 0}, NULL), 0);
-        command("cp -r %s/new %s/old");
+        folder_run("cp -r %s/new %s/old");
         for (int i = 0; i < MOST_FILES && output->files[i]; i++) {
             char path[192];
             assert_done(file_read(work(output->files[i]), 1 << 24, &expected[i].data, &expected[i].size, &error));
@@ -388,13 +381,13 @@ static int write_one(void *user)
 TEST(a_command_that_is_told_to_end_leaves_no_temporary_file)
 {
     int count = 0;
-    command("rm -rf %s/new && mkdir %s/new");
+    folder_run("rm -rf %s/new && mkdir %s/new");
     assert_int_equal(trace(write_one, NULL, (struct trouble){-1, -SIGTERM}, &count), 0);
     for (int n = 0; n < count; n++) {
-        command("rm -f %s/new/one");
+        folder_run("rm -f %s/new/one");
         const int status = trace(write_one, NULL, (struct trouble){n, -SIGTERM}, NULL);
         assert_true(status == 3 || n == count - 1);
-        command("test -z \"$(find %s/new -name '.wiggly*')\"");
+        folder_run("test -z \"$(find %s/new -name '.wiggly*')\"");
     }
 }
 #endif
