@@ -3,7 +3,7 @@
 
     tools/make-demo.py > assets/demo/demo.replay
 
-Run it again after a change of what it shows; tests/app/test_demo.c plays all of it. Nothing here depends on where a panel is.
+Run it again after a change of what it shows; tests/app/test_app.c plays all of it. Nothing here depends on where a panel is.
 """
 import math
 import sys
