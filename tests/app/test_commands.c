@@ -30,9 +30,11 @@ static struct {
 /// A command line without `wiggly`, its words apart by one space.
 static int call(const char *line)
 {
-    char *words[256], *own = strdup(line);
+    static char own[LINE];
+    char *words[256], *rest = own;
     int count = 0;
-    for (char *word; (word = strsep(&own, " "));) words[count++] = word;
+    snprintf(own, sizeof own, "%s", line);
+    for (char *word; (word = strsep(&rest, " "));) words[count++] = word;
     words[count] = NULL;
     for (size_t i = 0; i < COUNT(commands); i++)
         if (strcmp(words[0], commands[i].name) == 0) return commands[i].run(count, words);
