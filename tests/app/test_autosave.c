@@ -8,6 +8,7 @@
 #include "base/need.h"
 #include "shown.h"
 #include <fcntl.h>
+#include <limits.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -242,7 +243,7 @@ TEST(a_save_that_is_killed_leaves_one_of_two)
         assert_true(i < 20 * kills);
         const pid_t child = fork();
         assert_true(child >= 0);
-        for (int n = 0; child == 0; n++)
+        for (int n = child ? INT_MAX : 0; n < INT_MAX; n++)
             if (!scene_save(n % 2 ? large.document : small.document, path, NULL)) _exit(1);
         nanosleep(&(struct timespec){.tv_nsec = 1000 * (1000 + rand() % 40000) * (1 + i / kills)}, NULL);
         kill(child, SIGKILL);
