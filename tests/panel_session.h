@@ -99,7 +99,7 @@ static inline void panel_enter(struct session *session, const char *name, const 
 /// Drags a slider's handle to a value and keeps the button down.
 static inline void panel_drag(struct session *session, const char *name, double value)
 {
-    char target[64];
+    char target[192];
     float x, y;
     panel_press(session, name, 1);
     snprintf(target, sizeof target, "%s,%.17g", name, value);

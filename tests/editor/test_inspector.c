@@ -1,400 +1,643 @@
-/// The inspector: what its widgets do to the document, by the events of mouse and keyboard.
-#include "panel_session.h"
-#include "shown.h"
+/// The inspector: what each widget does to the document and what it says, by the events of mouse and keyboard.
+#include "folder.h"
+#include "walks.h"
+#include "puppet.h"
 
+/// A keyed spline, a cubic, and one whose frequency follows the cubic; a tail that two of them bend.
 static const char scene[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [" PANEL_SPLINES "],"
-    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"rest\": [4, -2, 1], \"channels\": ["
-    "{\"spline\": \"sway\", \"axis\": \"side\", \"lag\": 6.5, \"gain\": [3, 6, 9]},"
-    "{\"spline\": \"lift\", \"axis\": \"up\", \"lag\": 5, \"gain\": 4}]}]}";
+    "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'knots': [{'frame': 0, "
+    "'value': "
+    "0}, {'frame': 36, 'value': 1}, {'frame': 60, 'value': -0.5}]}, {'name': 'pace', 'mode': 'cubic', 'knots': "
+    "[{'frame': 0, 'value': 1}, {'frame': 90, 'value': 2}]}, {'name': 'lift', 'frequency': {'spline': 'pace'}, "
+    "'damping': 0.2, 'knots': [{'frame': 10, 'value': 1}]}], 'rigs': [{'type': 'tail', 'name': 'tail', 'joints': 3, "
+    "'rest': [4, -2, 1], 'channels': [{'spline': 'sway', 'axis': 'side', 'lag': 6.5, 'gain': [3, 6, 9]}, {'spline': "
+    "'lift', 'axis': 'up', 'lag': 5, 'gain': 4}]}]}";
 
-static const struct param *parameter(const struct session *f, int spline, enum parameter which)
-{
-    return &f->document->splines[spline]->parameter[which];
-}
+// --- numbers ------------------------------------------------------------------------------------------------------------
 
-SESSION_TEST(test_drag_is_one_undo_step, panel_open(s, scene, 1280, 720))
-{
-    panel_drag(s, "frequency", 2.5);
-    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
-    assert_true(inspector_is_dragging(s->editor->inspector));
-    panel_release(s);
-    assert_false(history_is_open(s->history));
-    assert_string_equal(history_undo_label(s->history), "Set frequency");
-    session_key(s, 'Z', MOD_CTRL);
-    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
-    assert_null(history_undo_label(s->history));
-    session_key(s, 'Y', MOD_CTRL);
-    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
-}
+/// A drag is one step; Esc takes it back, and closing the window in the middle of one leaves no half-open step behind.
+WALK(test_a_drag_is_one_step, scene, 1280, 720,
+     "slide frequency 2.5; is splines.0.frequency 2.5; is sliding 1;"
+     "release; is open 0; is undo Set frequency; step;"
+     "key Ctrl+Z; unchanged; is undo nothing;"
+     "slide damping 1; is splines.0.damping 1; key Escape; unchanged; is open 0; is undo nothing; release;"
+     "slide frequency 3; close; is open 0; is asked unsaved")
 
-SESSION_TEST(test_escape_takes_a_drag_back, panel_open(s, scene, 1280, 720))
-{
-    panel_drag(s, "damping", 1);
-    assert_near(parameter(s, 0, PARAMETER_DAMPING)->value, 1, 0);
-    session_key(s, KEY_ESCAPE, 0);
-    assert_near(parameter(s, 0, PARAMETER_DAMPING)->value, 0.1, 0);
-    assert_false(history_is_open(s->history));
-    assert_null(history_undo_label(s->history));
-    panel_release(s);
-}
+WALK(test_typed_nonsense_is_said_and_refused, scene, 1280, 720,
+     "enter damping lots; errs damping: expected a number; key A Escape;"
+     "enter damping 1.5; says damping: expected 0 … 1;" // more than complex mode takes
+     "unchanged; is undo nothing")
 
-/// Closing the window in the middle of a drag must not leave a half-open step behind.
-SESSION_TEST(test_closing_ends_a_drag, panel_open(s, scene, 1280, 720))
-{
-    panel_drag(s, "frequency", 3);
-    session_send(s, (struct event){.kind = EVENT_CLOSE});
-    assert_false(history_is_open(s->history));
-    assert_int_equal(asked(s->editor), DIALOG_UNSAVED);
-}
+WALK(test_typing_keeps_keys_from_the_editor, scene, 1280, 720,
+     "twice frequency; is typing 1;"
+     "key Ctrl+A; type v m.; is selected 0;" // all of what is typed, not all knots
+     "key End Ctrl+A; type x; is field x;"
+     "key Delete Space; is look wiggly; is playing 0; unchanged;"
+     "key F1; is lookup keys; key Escape Escape; is typing 0;"
+     "key V; is look stiff")
 
-SESSION_TEST(test_typed_nonsense_is_said_and_refused, panel_open(s, scene, 1280, 720))
-{
-    panel_enter(s, "damping", "lots");
-    assert_said_error(s->editor, "damping: expected a number");
-    session_key(s, 'A', 0);
-    session_key(s, KEY_ESCAPE, 0);
-    panel_enter(s, "damping", "1.5"); // more than complex mode takes
-    assert_said(s->editor, "damping: expected 0 … 1");
-    assert_near(parameter(s, 0, PARAMETER_DAMPING)->value, 0.1, 0);
-    assert_null(history_undo_label(s->history));
-}
+/// A run of nudges is one step. Without the focus the arrows are the playhead's. Delete is the default's.
+WALK(test_keys_belong_to_the_focus, scene, 1280, 720,
+     "tab frequency; key Right Right; is splines.0.frequency 1.1; is position 0;"
+     "key Ctrl+Z; unchanged;"
+     "key Right*9; is splines.0.frequency >1.3; key Delete; is splines.0.frequency 1; is splines.0.knots.# 3;"
+     "key Ctrl+Z; is splines.0.frequency >1.3; key Ctrl+Z; unchanged;"
+     "key Escape Right; is position 1; unchanged")
 
-SESSION_TEST(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 720))
-{
-    panel_press(s, "frequency", 2);
-    panel_release(s);
-    assert_true(inspector_of(s->editor)->typing);
-    session_key(s, 'A', MOD_CTRL); // all of what is typed, not all knots
-    panel_type(s, "v m.");
-    assert_int_equal(selection_count(selection_of(s->editor), s->document->splines[0]), 0);
-    session_key(s, KEY_END, 0);
-    session_key(s, 'A', MOD_CTRL);
-    panel_type(s, "x");
-    assert_string_equal(inspector_of(s->editor)->text.bytes, "x");
-    session_key(s, KEY_DELETE, 0);
-    session_key(s, KEY_SPACE, 0);
-    assert_int_equal(look(s->editor), LOOK_WIGGLY);
-    assert_int_equal(spline_mode(s->document->splines[0]), WIGGLY_COMPLEX);
-    assert_int_equal(s->document->splines[0]->knot_count, 3);
-    assert_false(playback_of(s->editor)->playing);
-    session_key(s, KEY_F1, 0);
-    assert_true(looked_up(s->editor) == LOOKUP_KEYS);
-    session_key(s, KEY_ESCAPE, 0);
-    session_key(s, KEY_ESCAPE, 0);
-    assert_false(inspector_of(s->editor)->typing);
-    session_key(s, 'V', 0);
-    assert_int_equal(look(s->editor), LOOK_STIFF);
-}
-
-SESSION_TEST(test_arrows_belong_to_the_focus, panel_open(s, scene, 1280, 720))
-{
-    inspector_of(s->editor)->focus = panel_id(s, "frequency");
-    session_key(s, KEY_RIGHT, 0);
-    session_key(s, KEY_RIGHT, 0);
-    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1.1, 0);
-    assert_near(playback_of(s->editor)->position, 0, 0);
-    session_key(s, 'Z', MOD_CTRL); // the run of nudges is one step
-    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
-    session_key(s, KEY_ESCAPE, 0);
-    session_key(s, KEY_RIGHT, 0);
-    assert_near(playback_of(s->editor)->position, 1, 0);
-    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
-}
-
-SESSION_TEST(test_only_what_counts_is_shown, panel_open(s, scene, 1280, 1700))
-{
-    assert_false(panel_shows(s, "bandwidth"));
-    panel_click(s, "section.advanced");
-    assert_true(panel_shows(s, "bandwidth"));
-    panel_click(s, "mode.real");
-    assert_int_equal(spline_mode(s->document->splines[0]), WIGGLY_REAL);
-    assert_false(panel_shows(s, "bandwidth"));
-    panel_click(s, "mode.cubic");
-    assert_false(panel_shows(s, "frequency"));
-    panel_click(s, "spline.lift");
-    assert_int_equal(active(s->editor), 2);
-    assert_false(panel_shows(s, "frequency")); // a track drives it
-    assert_true(panel_shows(s, "damping"));
-    panel_click(s, "start.loop");
-    assert_int_equal(spline_start(s->document->splines[2]), WIGGLY_LOOP);
-    panel_click(s, "look.cubic");
-    assert_int_equal(look(s->editor), LOOK_CUBIC);
-}
-
-SESSION_TEST(test_knot_is_edited_in_place, panel_open(s, scene, 1280, 1600))
-{
-    unsigned id = s->document->splines[0]->knots[1].id;
-    selection_set(selection_of(s->editor), id, true);
-    panel_enter(s, "value", "0.75");
-    assert_near(s->document->splines[0]->knots[1].value, 0.75, 0);
-    panel_enter(s, "value", "8"); // above all that was in sight
-    for (int frame = 0; frame < 90; frame++) session_frame(s);
-    assert_true(plot_of(s->editor)->value1 > 8);
-    panel_enter(s, "frame", "70"); // past its neighbour
-    assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
-    assert_int_equal(s->document->splines[0]->knots[2].id, id);
-    panel_enter(s, "frame", "60"); // where another knot sits
-    assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
-    assert_true(said_error(s->editor));
-    panel_pull(s, "frame", 600, 0, 1); // far beyond the scene: it stops at the last frame
-    assert_near(s->document->splines[0]->knots[2].frame, 96, 0);
-    panel_click(s, "has_slope");
-    assert_true(s->document->splines[0]->knots[2].has_slope);
-    panel_enter(s, "stiffness", "50");
-    assert_near(s->document->splines[0]->knots[2].stiffness, 50, 0);
-}
-
-SESSION_TEST(test_one_knot_has_one_frame, panel_open(s, scene, 1280, 1400))
-{
-    assert_non_null(shown_text(s->editor, "3, frames 0 … 60"));
-    panel_click(s, "spline.lift");
-    assert_non_null(shown_text(s->editor, "1, frame 10"));
-}
-
-/// Nothing is selected: the section says what knots there are and works without pointing at one; what is below stays where it is.
-SESSION_TEST(test_the_knot_section_without_a_knot, panel_open(s, scene, 1280, 1400))
-{
-    float x, y[2];
-    assert_true(widget_at(s->editor, "section.splines", &x, &y[0]));
-    playback_of(s->editor)->position = 20;
-    panel_click(s, "knot.insert");
-    assert_int_equal(s->document->splines[0]->knot_count, 4);
-    assert_near(s->document->splines[0]->knots[1].frame, 20, 0);
-    assert_true(widget_at(s->editor, "section.splines", &x, &y[1]));
-    assert_near(y[1], y[0], 0);
-    assert_false(panel_shows(s, "knot.insert"));
-    session_key(s, KEY_ESCAPE, 0);
-    panel_click(s, "knot.next");
-    assert_near(playback_of(s->editor)->position, 36, 0);
-    session_key(s, KEY_ESCAPE, 0);
-    panel_click(s, "knot.all");
-    assert_true(panel_shows(s, "slope.flat"));
-}
-
-/// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
-SESSION_TEST(test_several_knots, panel_open(s, scene, 1280, 1600))
-{
-    session_key(s, 'A', MOD_CTRL);
-    assert_false(panel_shows(s, "stiffness")); // no slopes yet
-    panel_enter(s, "value", "0.25");
-    for (int k = 0; k < 3; k++) assert_near(s->document->splines[0]->knots[k].value, 0.25, 0);
-    session_key(s, 'Z', MOD_CTRL); // one step
-    assert_near(s->document->splines[0]->knots[1].value, 1, 0);
-    panel_pull(s, "value", 50, 0, 5);
-    assert_near(s->document->splines[0]->knots[0].value, 0.5, 1e-12);
-    assert_near(s->document->splines[0]->knots[2].value, 0, 1e-12);
-    session_key(s, 'Z', MOD_CTRL);
-    assert_null(history_undo_label(s->history));
-    panel_enter(s, "frame", "10");
-    assert_near(s->document->splines[0]->knots[0].frame, 10, 0);
-    assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
-    panel_enter(s, "frame", "40"); // the last one would leave the scene
-    assert_near(s->document->splines[0]->knots[0].frame, 10, 0);
-    assert_said(s->editor, "frame 100 is outside 0 to 96");
-    panel_pull(s, "frame", 60, 0, 60); // as far as it goes
-    assert_near(s->document->splines[0]->knots[2].frame, 96, 0);
-    assert_near(s->document->splines[0]->knots[1].frame, 72, 0);
-    session_key(s, 'T', 0);
-    panel_enter(s, "stiffness", "50");
-    for (int k = 0; k < 3; k++) assert_near(s->document->splines[0]->knots[k].stiffness, 50, 0);
-    panel_enter(s, "slope", "steep");
-    assert_said(s->editor, "slope: expected a number");
-}
-
-SESSION_TEST(test_frame_drag_passes_through_a_neighbour, panel_open(s, scene, 1280, 720))
-{
-    selection_set(selection_of(s->editor), s->document->splines[0]->knots[1].id, true);
-    panel_press(s, "frame", 1);
-    float x = s->x;
-    for (int moved = 3; moved <= 30; moved++) session_move(s, x + (float)moved, s->y);
-    assert_near(s->document->splines[0]->knots[2].frame, 66, 0);
-    assert_near(s->document->splines[0]->knots[1].frame, 60, 0);
-    panel_release(s);
-    session_key(s, 'Z', MOD_CTRL);
-    assert_near(s->document->splines[0]->knots[1].frame, 36, 0);
-}
+WALK(test_only_what_counts_is_shown, scene, 1280, 1700,
+     "lacks bandwidth; click section.advanced; shows bandwidth;"
+     "click mode.real; is splines.0.mode real; lacks bandwidth;"
+     "click mode.cubic; is splines.0.mode cubic; lacks frequency;"
+     "click spline.lift; is active 2; lacks frequency; shows damping;" // a track drives it
+     "click start.loop; is splines.2.start loop;"
+     "click look.cubic; is look cubic;"
+     "click section.spline; point position.y; is hint Position of the body along y") // outlives the panel
 
 /// The pointer's shape says that a number is dragged, and where a text is typed.
-SESSION_TEST(test_the_pointer_says_what_it_does, panel_open(s, scene, 1280, 720))
-{
-    assert_int_equal(editor_cursor(s->editor), CURSOR_ARROW);
-    panel_drag(s, "damping", 0.3);
-    assert_int_equal(editor_cursor(s->editor), CURSOR_HORIZONTAL);
-    panel_release(s);
-    assert_int_equal(editor_cursor(s->editor), CURSOR_HORIZONTAL);
-    panel_press(s, "damping", 2);
-    panel_release(s);
-    assert_int_equal(editor_cursor(s->editor), CURSOR_TEXT);
-    session_key(s, KEY_ESCAPE, 0);
-    panel_click(s, "section.knot");
-    assert_int_equal(editor_cursor(s->editor), CURSOR_ARROW);
-}
+WALK(test_the_pointer_says_what_it_does, scene, 1280, 720,
+     "is cursor arrow; slide damping 0.3; is cursor horizontal; release; is cursor horizontal;"
+     "twice damping; is cursor text; key Escape;"
+     "click section.knot; is cursor arrow")
 
-TEST(test_tail_array_scales_as_a_whole)
-{
-    struct session f;
-    panel_open(&f, scene, 1280, 1600);
-    panel_drag(&f, "gain", 18);
-    assert_near(document_tail(f.document, 0)->channels[0].gain.value[0], 6, 1e-12);
-    assert_near(document_tail(f.document, 0)->channels[0].gain.value[2], 18, 0);
-    session_move(&f, 0, 300); // through zero and back in the same drag nothing is lost
-    assert_near(document_tail(f.document, 0)->channels[0].gain.value[2], 0, 0);
-    panel_drag(&f, "gain", 9);
-    assert_near(document_tail(f.document, 0)->channels[0].gain.value[0], 3, 1e-12);
-    panel_release(&f);
-    session_key(&f, 'Z', MOD_CTRL);
-    assert_near(document_tail(f.document, 0)->channels[0].gain.value[0], 3, 0);
-    session_key(&f, KEY_PAGE_UP, 0); // the tail's numbers are those of the spline that is edited
-    assert_int_equal(shown_channel(f.editor), 1);
-    session_key(&f, KEY_PAGE_DOWN, 0);
-    assert_int_equal(shown_channel(f.editor), 0);
-    panel_click(&f, "channel.1");
-    panel_drag(&f, "lag", 12);
-    panel_release(&f);
-    assert_near(document_tail(f.document, 0)->channels[1].lag.value[0], 12, 0);
-    assert_near(document_tail(f.document, 0)->channels[0].lag.value[0], 6.5, 0);
-    session_close(&f);
-}
+// --- knots --------------------------------------------------------------------------------------------------------------
 
-static bool shows_text(struct session *f, const char *part)
-{
-    struct drawlist *list = drawn_by(f->editor);
-    drawlist_clear(list, layout_of(f->editor)->window);
-    inspector_show(f->editor->inspector, false);
-    for (int i = 0; i < list->count; i++) {
-        if (list->commands[i].kind == DRAW_TEXT && strstr(list->text + list->commands[i].first, part)) return true;
-    }
-    return false;
-}
+WALK(test_a_knot_is_edited_in_place, scene, 1280, 1600,
+     "on knot(sway,1); enter value 0.75; is splines.0.knots.1.value 0.75;"
+     "enter value 8; frames 90; is plot.top >8;"                                    // above all in sight
+     "enter frame 70; is splines.0.knots.2.frame 70; is splines.0.knots.2.value 8;" // past its neighbour
+     "enter frame 60; is splines.0.knots.2.frame 70; errs ;"                        // where another sits
+     "pull frame 600 0 1; is splines.0.knots.2.frame 96;"                           // as far as it goes
+     "click has_slope; is splines.0.knots.2.slope <0; is splines.0.knots.1.slope nothing;"
+     "enter stiffness 50; is splines.0.knots.2.stiffness 50")
+
+WALK(test_a_dragged_frame_passes_through_a_neighbour, scene, 1280, 720,
+     "on knot(sway,1); press frame; by 30 0 30; is splines.0.knots.2.frame 66; is splines.0.knots.1.frame 60;"
+     "release; step; key Ctrl+Z; is splines.0.knots.1.frame 36")
+
+/// Nothing is selected: the section says what knots there are and works without pointing at one; what is below stays where it is.
+WALK(test_the_knot_section_without_a_knot, scene, 1280, 1400,
+     "reads 3, frames 0 … 60; click spline.lift; reads 1, frame 10; click spline.sway;"
+     "keep y:section.splines; seek 20; click knot.insert; is splines.0.knots.# 4; is splines.0.knots.1.frame 20;"
+     "is y:section.splines kept; lacks knot.insert;"
+     "key Escape; click knot.next; is position 36;"
+     "key Escape; click knot.all; shows slope.flat")
+
+/// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
+WALK(test_several_knots, scene, 1280, 1600,
+     "key Ctrl+A; lacks stiffness;" // no slopes yet
+     "enter value 0.25; is splines.0.knots.0.value 0.25; is splines.0.knots.1.value 0.25;"
+     "is splines.0.knots.2.value 0.25; key Ctrl+Z; unchanged;"
+     "pull value 50 0 5; is splines.0.knots.0.value 0.5±1e-12; is splines.0.knots.2.value 0±1e-12;"
+     "key Ctrl+Z; is undo nothing;"
+     "enter frame 10; is splines.0.knots.0.frame 10; is splines.0.knots.2.frame 70;"
+     "enter frame 40; is splines.0.knots.0.frame 10; says frame 100 is outside 0 to 96;"
+     "pull frame 60 0 60; is splines.0.knots.2.frame 96; is splines.0.knots.1.frame 72;" // as far as it goes
+     "key T; enter stiffness 50; is splines.0.knots.0.stiffness 50; is splines.0.knots.1.stiffness 50;"
+     "is splines.0.knots.2.stiffness 50;"
+     "enter slope steep; says slope: expected a number")
+
+// --- what is said of a spline -------------------------------------------------------------------------------------------
 
 /// Which way splines go follows from the document's length alone.
 TEST(test_the_solver_is_said)
 {
-    struct session f;
-    static const struct {
-        const char *scene, *solver;
-    } both[] = {
-        {"{\"frames\": [0, 4095], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": []}]}", "band"},
-        {"{\"frames\": [0, 4096], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": []}]}", "chain"}};
+    static const char *const solvers[] = {"band", "chain"};
     for (int n = 0; n < 2; n++) {
-        panel_open(&f, both[n].scene, 1280, 2000);
-        panel_click(&f, "section.scene");
-        assert_true(shows_text(&f, both[n].solver));
-        session_close(&f);
+        char of_length[128];
+        struct session s;
+        snprintf(of_length, sizeof of_length,
+                 "{'frames': [0, %d], 'splines': [{'name': 's', 'frequency': 1, 'knots': []}]}", 4095 + n);
+        panel_open(&s, quoted(of_length), 1280, 2000);
+        walk(&s, "click section.scene; mentions %s", solvers[n]);
+        session_close(&s);
     }
 }
 
-SESSION_TEST(
-    test_says_what_the_solver_and_the_poles_mean,
-    panel_open(
-        s,
-        "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"a\", \"mode\": \"real\", \"frequency\": 1, "
-        "\"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 12, \"value\": -1}, {\"frame\": 24, \"value\": "
-        "1}]}]}",
-        1280, 720))
+SESSION_TEST(test_says_what_the_solver_and_the_poles_mean,
+             panel_open(s,
+                        quoted("{'frames': [0, 96], 'splines': [{'name': 'a', 'mode': 'real', 'frequency': 1, "
+                               "'knots': [{'frame': 0, 'value': 1}, {'frame': 12, 'value': -1}, {'frame': 24, "
+                               "'value': 1}]}]}"),
+                        1280, 720))
 {
-    char words[24];
+    struct drawlist *list = drawn_by(s->editor);
     assert_int_equal(s->work.evaluation.status[0], WIGGLY_OK);
     s->work.evaluation.status[0] = WIGGLY_CALMED;
-    snprintf(words, sizeof words, "%s", wiggly_status_text(s->work.evaluation.status[0]));
-    assert_true(shows_text(s, words));
+    drawlist_clear(list, layout_of(s->editor)->window);
+    inspector_show(s->editor->inspector, false);
+    walk(s, "mentions %.23s", wiggly_status_text(WIGGLY_CALMED));
     s->work.evaluation.status[0] = WIGGLY_OK;
-    assert_true(shows_text(s, "Rings forever"));
-    panel_drag(s, "damping", 0.5);
-    panel_release(s);
+    walk(s, "frames; mentions Rings forever; ignores %.23s;", wiggly_status_text(WIGGLY_CALMED));
+    walk(s, "slide damping 0.5; release; mentions Settles to 5 %% 21 frames after the last knot.;"
+            "slide damping 2; release; mentions Settles to 5 %% 45 frames after;"
+            "enter frequency 20; mentions half the sample rate");
+}
+
+/// Drags a slider to an end and far beyond: its curves stay finite, and the document one that loads.
+static void drag_beyond(struct session *s, const char *slider, double end, float beyond)
+{
+    panel_drag(s, slider, end);
+    session_move(s, beyond, s->y);
+    session_release(s, BUTTON_LEFT);
     session_frame(s);
-    assert_false(shows_text(s, words));
-    assert_true(shows_text(s, "Settles to 5 % 21 frames after the last knot."));
-    panel_drag(s, "damping", 2);
-    panel_release(s);
-    assert_true(shows_text(s, "Settles to 5 % 45 frames after"));
-    panel_enter(s, "frequency", "20");
-    assert_true(shows_text(s, "half the sample rate"));
-}
-
-static void assert_finite_and_loadable(struct session *f)
-{
-    session_frame(f);
-    for (int s = 0; s < f->work.evaluation.count; s++) {
-        for (int i = 0; i < f->work.evaluation.samples; i++) {
-            assert_true(isfinite(f->work.evaluation.curves[s].total[i]) &&
-                        isfinite(f->work.evaluation.curves[s].im[i]));
-        }
+    assert_false(history_is_open(s->history));
+    for (int i = 0; i < s->work.evaluation.samples; i++) {
+        const wiggly_curve *curve = &s->work.evaluation.curves[0];
+        if (!isfinite(curve->total[i]) || !isfinite(curve->im[i])) fail_msg("%s at %g: not finite", slider, end);
     }
-    assert_loads_again(f->document);
+    assert_loads_again(s->document);
 }
 
-/// A scene of one spline with `knots` knots, an array of them on every frame.
-static char *scene_of(int knots, const char *mode, const char *start)
+TEST(test_extremes_stay_finite_and_loadable)
 {
-    char *text = malloc(64 * (size_t)knots + 1024);
-    assert_non_null(text);
-    int n =
-        sprintf(text,
-                "{\"wiggly\": 1, \"frames\": [0, 480], \"splines\": [{\"name\": \"a\", \"mode\": \"%s\", \"start\": "
-                "\"%s\", \"frequency\": 1, \"damping\": 0.1, \"knots\": [",
-                mode, start);
-    for (int k = 0; k < knots; k++) {
-        n += sprintf(text + n, "%s{\"frame\": %d, \"value\": %d}", k ? ", " : "", 2 + k, k * 7 % 5 - 2);
-    }
-    sprintf(text + n, "]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"a\"}]}");
-    return text;
-}
-
-/// Drags every slider that is shown to both of its ends and far beyond. Returns the number of drags.
-static int try_all_sliders(struct session *f)
-{
-    int tried = 0;
     static const struct {
         const char *name;
         double ends[2];
     } sliders[] = {{"frequency", {0, 12}}, {"damping", {0, 1}}, {"damping", {0, 3}}, {"bandwidth", {0, 1}},
                    {"calm", {0, 1}},       {"lag", {0, 30}},    {"gain", {0, 20}},   {"rest", {-15, 15}}};
-    for (size_t s = 0; s < sizeof sliders / sizeof sliders[0]; s++) {
-        for (int end = 0; end < 2; end++) {
-            if (!panel_shows(f, sliders[s].name)) continue;
-            panel_drag(f, sliders[s].name, sliders[s].ends[end]);
-            session_move(f, end ? 20000 : -20000, f->y);
-            panel_release(f);
-            assert_false(history_is_open(f->history));
-            assert_finite_and_loadable(f);
+    static const int knots[] = {0, 1, 2, 400}, shown[] = {16, 14, 6};
+    static const char *const modes[] = {"complex", "real", "cubic"}, *const starts[] = {"free", "rest", "loop"};
+    for (int k = 0; k < 12; k++) {
+        char text[16000], *end = text;
+        struct session s;
+        int tried = 0;
+        end += sprintf(end,
+                       "{'frames': [0, 480], 'rigs': [{'type': 'tail', 'name': 't', 'spline': 'a'}], 'splines': "
+                       "[{'name': 'a', 'mode': '%s', 'start': '%s', 'frequency': 1, 'damping': 0.1, 'knots': [",
+                       modes[k % 3], starts[(k % 3 + k / 3) % 3]);
+        for (int n = 0; n < knots[k / 3]; n++)
+            end += sprintf(end, "%s{'frame':%d,'value':%d}", n ? "," : "", 2 + n, n * 7 % 5 - 2);
+        sprintf(end, "]}]}");
+        panel_open(&s, quoted(text), 1280, 1600);
+        panel_click(&s, "section.advanced");
+        for (size_t i = 0; i < 2 * sizeof sliders / sizeof *sliders; i++) {
+            if (!panel_shows(&s, sliders[i / 2].name)) continue;
+            drag_beyond(&s, sliders[i / 2].name, sliders[i / 2].ends[i % 2], i % 2 ? 20000 : -20000);
             tried++;
         }
+        assert_int_equal(tried, shown[k % 3]);
+        session_close(&s);
     }
-    return tried;
 }
 
-TEST(test_extremes_stay_finite_and_loadable)
+// --- the list of splines ------------------------------------------------------------------------------------------------
+
+WALK(test_a_spline_is_added_at_the_playhead, scene, 1280, 900,
+     "on ruler(24); click splines.add; is active.name spline; is splines.3.knots.0.frame 24;"
+     "is splines.3.frequency 1; step;"
+     "key Ctrl+Z; is active >-1; is active <3")
+
+/// What is being edited stays what it is when the list around it changes, and when that is undone.
+WALK(test_the_active_spline_is_followed, scene, 1280, 900,
+     "click spline.pace; click splines.down; is active.name pace; is active 2; step; is active.name pace;"
+     "key Ctrl+Z; is active.name pace;"
+     "click splines.copy; is active.name pace 2;"
+     "click splines.delete; is splines.# 3; is asked none") // nothing follows it: no question
+
+/// Deleting what others follow asks; then they keep the value of that frame, and the tail lets go of it.
+WALK(test_deleting_a_followed_spline_asks, scene, 1280, 900,
+     "on ruler(90); click spline.pace; click splines.delete; is asked ask; key Escape; unchanged;"
+     "click splines.delete; key D; is splines.# 2; is splines.1.frequency 2±1e-9; is rigs.0.channels.1.spline lift;"
+     "step; click spline.lift; mark;"
+     "click splines.delete; key Enter; is rigs.0.channels.# 1; step")
+
+/// The only spline may go as well; what is left still draws, and can be added to.
+WALK(test_an_empty_list, scene, 960, 900,
+     "click splines.delete; is asked ask; key D; click splines.delete; is asked ask; key D;"
+     "click splines.delete; is asked ask; key D; is splines.# 0; is active -1;"
+     "click splines.delete; click splines.copy; is splines.# 0;"
+     "click splines.add; is active.name spline")
+
+WALK(test_renaming, scene, 1280, 900,
+     "twice spline.sway; type swing; key Enter; is splines.0.name swing; step;"
+     "click section.splines; key F2; type pace; key Enter;" // F2 opens the list again
+     "is splines.0.name swing; says a spline called pace already exists;"
+     "key F2 End; type s; key Enter; is splines.0.name swings;" // the name that is there is what is edited
+     "key Ctrl+Z; key F2 Delete Enter; is splines.0.name swing; says a spline needs a name;" // all is selected
+     "is splines.0.knots.# 3")
+
+SESSION_TEST(test_rows_are_dragged_to_their_place, panel_open(s, quoted(scene), 1280, 900))
 {
-    static const int knots[] = {0, 1, 2, 400};
-    static const char *const modes[] = {"complex", "real", "cubic"};
-    static const char *const starts[] = {"free", "rest", "loop"};
-    for (int k = 0; k < 4; k++) {
-        for (int m = 0; m < 3; m++) {
-            char *text = scene_of(knots[k], modes[m], starts[(m + k) % 3]);
-            struct session f;
-            panel_open(&f, text, 1280, 1600);
-            panel_click(&f, "section.advanced");
-            assert_int_equal(try_all_sliders(&f), m == 0 ? 16 : m == 1 ? 14 : 6);
-            session_close(&f);
-            free(text);
+    walk(s, "press spline.sway; by 0 %d; unchanged; release; is splines.2.name sway; is active.name sway; step",
+         2 * (int)UI_ROW);
+}
+
+WALK(test_colours, scene, 1280, 900,
+     "click color.pace; click color.3; is splines.1.color #1F9E7A; is popup 0; step;"
+     "click color.pace; click color.type; type #12345; key Enter; is splines.1.color #1F9E7A;"
+     "says colour: expected something like #FFB000, got “#12345”;"
+     "click color.type; type #123456; key Enter; is splines.1.color #123456;"
+     "click color.none; unchanged")
+
+/// The order of the list does not matter to what is hidden, and only the order is an edit.
+WALK(test_hidden_and_solo_curves, scene, 1280, 900,
+     "is curves.others 2; click eye.pace; is curves.others 1; is history.saved 1;"
+     "click spline.pace; click splines.up; is curve:0 0;"
+     "click solo.lift; is curve:2 1; is curve:1 0;"
+     "click solo.lift; click eye.pace; is curves.others 2; is history.saved 0")
+
+/// Attached from the list, which has no spline that would make a cycle; detached, it keeps the value at the playhead.
+WALK(test_a_track_is_attached_and_detached, scene, 1280, 900,
+     "on ruler(90); click follow.damping; shows item.pace; lacks item.sway;"
+     "click item.pace; is splines.0.damping.spline pace; step; lacks damping;"
+     "click spline.pace; click follow.equilibrium; is popup 0;" // both others follow it
+     "says no other spline for pace to follow;"
+     "click spline.sway; frames; click follow.damping; is splines.0.damping 1") // 2, as far as damping goes
+
+// --- the scene ----------------------------------------------------------------------------------------------------------
+
+WALK(test_frames_per_second_ask, scene, 1280, 2000,
+     "click section.scene; enter scene.fps 48; is asked ask; is fps 24;"
+     "key S; is fps 48; is splines.0.knots.1.frame 72; is frames.1 192; step;"
+     "key Ctrl+Z; enter scene.fps 48; key F; is fps 48; is splines.0.knots.1.frame 36;"
+     "enter scene.fps 0; says rate: expected; key Escape")
+
+/// The playhead stays on its frame, or comes inside.
+WALK(test_a_range_asks_for_its_knots, scene, 1280, 2000,
+     "click section.scene; on ruler(80); enter scene.last 50; is asked ask;"
+     "key T; is splines.0.knots.# 2; is position 50; step;"
+     "key Ctrl+Z; enter scene.last 50; key M; is splines.0.knots.2.frame 50;"
+     "enter scene.last 50.5; says last: expected a whole number, got 50.5;"
+     "enter scene.first 60; says the last frame must not be before the first;"
+     "enter scene.first -10; is position 60;"
+     "enter scene.substeps 4; is frame 50; is substeps 4")
+
+/// More frames than the splines' samples allow are refused in the field, and nothing is asked about knots.
+SESSION_TEST(test_a_range_has_an_end, panel_open(s, quoted(scene), 1280, 2000))
+{
+    const int longest = (SPLINE_MAX_SAMPLES - 1) / 4;
+    walk(s,
+         "click section.scene; enter scene.substeps 4; mark;"
+         "enter scene.last 999999999; is asked none; is said last: expected -1000000000 … %d, got 999999999;"
+         "enter scene.first -999999999; says first: expected %d … 1000000000; unchanged;"
+         "enter scene.last %d; is frames.1 %d",
+         longest, 96 - longest, longest, longest);
+}
+
+static unsigned next_random(unsigned *seed) { return (*seed = *seed * 1664525u + 1013904223u) >> 8; }
+
+static void random_input(struct session *s, unsigned *seed)
+{
+    static const int keys[] = {KEY_ENTER, KEY_ESCAPE, KEY_TAB, KEY_UP, KEY_DOWN,  KEY_LEFT,
+                               KEY_RIGHT, KEY_DELETE, KEY_F2,  '3',    KEY_SPACE, KEY_BACKSPACE};
+    const unsigned what = next_random(seed) % 6;
+    if (what < 2) {
+        session_press(s, next_random(seed) % 8 ? BUTTON_LEFT : BUTTON_RIGHT, 1 + (int)(next_random(seed) % 4 == 0));
+    } else if (what == 2) {
+        session_release(s, BUTTON_LEFT);
+    } else if (what == 3) {
+        session_key(s, keys[next_random(seed) % 12], 0);
+        session_send(s, (struct event){.kind = EVENT_TEXT, .codepoint = '0' + next_random(seed) % 75});
+    } else if (what == 4) {
+        session_wheel(s, (float)(next_random(seed) % 7) - 3);
+    } else {
+        const float x = layout_of(s->editor)->inspector.x + (float)(next_random(seed) % 280);
+        session_move(s, x, (float)(next_random(seed) % 700));
+    }
+    if (next_random(seed) % 200 == 0) session_key(s, 'Z', MOD_CTRL);
+}
+
+/// Whatever is pressed, dragged and typed: the document stays one that loads, and all of it can be undone.
+TEST(test_random_input_comes_back)
+{
+    int steps = 0;
+    for (unsigned seed = 1; seed <= (unsigned)quick_or_all(2, 6); seed++) {
+        struct session s;
+        unsigned random = seed;
+        panel_open(&s, quoted(scene), 1280, 2000);
+        walk(&s, "click section.scene");
+        for (int i = 0; i < 3000 && s.document->spline_count < 50; i++) random_input(&s, &random);
+        walk(&s, "key Escape*3; release; key Escape; is open 0");
+        assert_loads_again(s.document);
+        while (history_undo(s.history)) steps++;
+        walk(&s, "unchanged");
+        session_close(&s);
+    }
+    assert_true(steps >= quick_or_all(10, 60));
+}
+
+// --- tails: every part of one is set by hand, each a step that undo takes back byte by byte -----------------------------------
+
+static const char tail[] =
+    "{'frames': [0, 48], 'splines': [{'name': 'sway', 'knots': [{'frame': 0, 'value': 0.5}]}, {'name': 'walk', "
+    "'knots': [{'frame': 0, 'value': 0.25}]}], 'rigs': [{'type': 'tail', 'name': 't', 'joints': 4, 'position': [0, "
+    "0.26, 0], 'channels': [{'spline': 'sway', 'lag': 6, 'gain': 5}]}]}";
+
+WALK(test_the_place_and_size_of_a_tail, tail, 1280, 1600,
+     "enter position.x 0.5; is rigs.0.position.0 0.5; enter length 2; is rigs.0.length 2;"
+     "enter joints 8; is rigs.0.joints 8; is rigs.0.channels.0.gain 2.5;"
+     "slide joints 20; slide joints 16; release; is rigs.0.channels.0.gain 1.25;" // from 8, whatever lay between
+     "click position.z.follow; click item.walk; is rigs.0.position.2.spline walk; is body.z 0.25±1e-6;"
+     "click position.z.follow; is rigs.0.position.2 0.25±1e-3;" // stays where it was
+     "undone")
+
+WALK(test_channels, tail, 1280, 1600,
+     "click axis.0; click item.up; is rigs.0.channels.0.axis up;"
+     "click part.displacement; is rigs.0.channels.0.of displacement;"
+     "click feed.0; click item.walk; is rigs.0.channels.0.spline walk; is active.name walk;"
+     "click channel.add; is rigs.0.channels.# 2; is rigs.0.channels.1.spline walk; is channel 1;"
+     "click channel.0; click channel.delete; is rigs.0.channels.# 1; is rigs.0.channels.0.spline walk;"
+     "click channel.delete; is rigs.0.channels.# 0; lacks gain; undone")
+
+WALK(test_angles_one_for_each_joint, tail, 1280, 1600,
+     "click lag.each; is rigs.0.channels.0.lag.1 6±1e-9; is rigs.0.channels.0.lag.2 12±1e-9;"
+     "is rigs.0.channels.0.lag.3 18±1e-9; is rigs.0.channels.0.lag.0 0±1e-9;"
+     "enter lag.joint -0.04; frames; reads 0.0 → 18.0°;"                         // not −0.0
+     "enter lag.joint 0; click lag.each; is rigs.0.channels.0.lag 6±1e-9;"       // lit: back to one
+     "click gain.each; enter gain.joint 9; is rigs.0.channels.0.gain.0 9; mark;" // the first, as none was touched yet
+     "enter gain.joint x; says joint 1: expected a number; unchanged; key Escape;"
+     "click gain.ramp; is rigs.0.channels.0.gain.ramp list; click gain.ramp; is rigs.0.channels.0.gain >0;"
+     "click rest.each; is rigs.0.rest.# 4")
+
+/// A curve is drawn by a drag over the joints: one step, which Esc takes back; arrows go along it.
+SESSION_TEST(test_angles_are_drawn, panel_open(s, quoted(tail), 1280, 1600))
+{
+    const int *joint = &s->editor->inspector->joint[ANGLE_GAIN];
+    walk(s, "click gain.each; mark;"
+            "press gain.curve; by 80 -20;" // from the first joint; a third of the way is the next
+            "is rigs.0.channels.0.gain.0 >5; is rigs.0.channels.0.gain.2 5");
+    assert_true(number(s, "rigs.0.channels.0.gain.1") > number(s, "rigs.0.channels.0.gain.0"));
+    assert_int_equal(*joint, 1);
+    walk(s, "key Escape; unchanged; release;"
+            "pull gain.curve 300 10 6; is rigs.0.channels.0.gain.2 <5; is rigs.0.channels.0.gain.3 <5; step;"
+            "click gain.curve");
+    const int at = *joint;
+    walk(s, "keep rigs.0.channels.0.gain.%d; key Up; is rigs.0.channels.0.gain.%d kept+0.5±1e-9; key Left Up", at,
+         at);
+    assert_int_equal(*joint, at - 1);
+}
+
+/// What a tail shares with another is not asked about. View state is no edit.
+WALK(test_a_tail_is_named_copied_and_deleted, tail, 1280, 1600,
+     "click tail.name; key Ctrl+A; type brush; key Enter; is rigs.0.name brush;"
+     "click rig.copy; is rigs.# 2; is stage.tails 2; is rig 1;"
+     "click rig.delete; is rigs.# 1; is asked none;"
+     "click rig.delete; is asked ask; key K; is rigs.# 0; is stage.tails 0; is splines.# 2;"
+     "click rig.add; click item.tail; is rigs.# 1; is rigs.0.type tail; undone;"
+     "click onion; click trail; click record; is onion 1; is trail 1; is record 1; is undo nothing; unchanged")
+
+/// An angle of each joint scales as a whole; nothing is lost on the way through zero. The numbers are those of the edited spline.
+WALK(test_a_tails_array_scales_as_a_whole, scene, 1280, 1600,
+     "slide gain 18; is rigs.0.channels.0.gain.0 6±1e-12; is rigs.0.channels.0.gain.2 18;"
+     "at 0 300; is rigs.0.channels.0.gain.2 0; slide gain 9; is rigs.0.channels.0.gain.0 3±1e-12;"
+     "release; key Ctrl+Z; is rigs.0.channels.0.gain.0 3;"
+     "key PageUp; is channel 1; key PageDown; is channel 0;"
+     "click channel.1; slide lag 12; release; is rigs.0.channels.1.lag 12; is rigs.0.channels.0.lag 6.5")
+
+// --- characters ---------------------------------------------------------------------------------------------------------
+
+static int make_model(void **state)
+{
+    if (folder_make(state) != 0) return -1;
+    struct character character = puppet_character(0.1f, 3);
+    for (int i = 0; i < character.vertex_count; i++) {
+        character.coordinates[0].re[i][1] = 0.2f;
+        character.coordinates[1].im[i][0] = 0.3f;
+    }
+    character.coordinates[0].frequency = 1.25;
+    puppet_write(&character, folder_path("puppet.glb"));
+    return 0;
+}
+
+TESTS_BETWEEN(make_model, folder_remove)
+
+/// A character behind a tail: of several rigs its own is edited.
+static void open_puppet(struct session *s, const char *more_rigs, const char *coordinates)
+{
+    char text[1024];
+    snprintf(text, sizeof text,
+             "{'frames': [0, 48], 'splines': [{'name': 's', 'frequency': 1, 'knots': [{'frame': 0, 'value': 1}, "
+             "{'frame': 20, 'value': -1}]}, {'name': 't', 'knots': [{'frame': 9, 'value': 2}]}], 'rigs': [%s{'type': "
+             "'character', 'model': '%s', 'coordinates': [%s]}]}",
+             more_rigs, folder_path("puppet.glb"), coordinates);
+    panel_open_models(s, quoted(text));
+    session_frame(s);
+}
+
+static const struct stage_character *on_stage(const struct session *s, int index)
+{
+    const struct stage_view *view = editor_stage(s->editor);
+    assert_true(index < view->character_count);
+    return &view->characters[index];
+}
+
+SESSION_TEST(test_a_character_behind_a_tail_is_edited,
+             open_puppet(s, "{'type': 'tail', 'name': 'tail', 'channels': []}, ", "{'name': 'a', 'spline': 's'}"))
+{
+    walk(s, "enter drive.lag 90; is rigs.1.coordinates.0.lag 90; step");
+}
+
+/// Both coordinates are one limb, until one spline is chosen.
+SESSION_TEST(test_a_lag_is_the_characters,
+             open_puppet(s, "", "{'name': 'a', 'spline': 's', 'lag': 20}, {'name': 'b', 'spline': 't', 'lag': 30}"))
+{
+    walk(s, "enter drive.lag 40; is rigs.0.coordinates.0.lag 40; is rigs.0.coordinates.1.lag 60;"
+            "click spline.t; enter drive.lag 15; is rigs.0.coordinates.0.lag 40; is rigs.0.coordinates.1.lag 15");
+}
+
+SESSION_TEST(test_a_character_is_edited_live, open_puppet(s, "", "{'name': 'a', 'spline': 's'}"))
+{
+    const float before = on_stage(s, 0)->morph.weight[0][0];
+    walk(s, "slide amplitude 1.5; is rigs.0.coordinates.0.amplitude 1.5±0.05");
+    assert_near(on_stage(s, 0)->morph.weight[0][0], (double)before * number(s, "rigs.0.coordinates.0.amplitude"),
+                1e-4);
+    walk(s, "release; step; enter drive.lag 90; is rigs.0.coordinates.0.lag 90;"
+            "key Ctrl+Z; is rigs.0.coordinates.0.lag 0; key Ctrl+Z; unchanged; is undo nothing;"
+            "click drive.add.0; click item.b; is rigs.0.coordinates.# 2; is rigs.0.coordinates.1.name b;"
+            "click drive.1; click drive.splines.0; click item.t; is rigs.0.coordinates.1.spline t;"
+            "is rigs.0.coordinates.0.spline s");
+    assert_int_equal(on_stage(s, 0)->morph.count, 2);
+    walk(s, "click drive.0.remove; is rigs.0.coordinates.# 1; is rigs.0.coordinates.0.name b; undone");
+}
+
+/// The map of phases, the twin beside it, and the stiff look.
+SESSION_TEST(test_views_of_a_character, open_puppet(s, "", "{'name': 'a', 'spline': 's'}"))
+{
+    const struct stage_character *const it = on_stage(s, 0);
+    assert_int_equal(it->map_coordinate, -1);
+    walk(s, "click phases.z; frames");
+    assert_true(it->map_coordinate == 0 && it->map_axis == 2);
+    walk(s, "click twin.on; frames; is stage.characters 2");
+    assert_true(it[0].coarse && it[1].coarse);
+    assert_true(it[1].position[0] - it[0].position[0] > 1.0f);
+    assert_near(it[1].morph.weight[0][1], 0, 0);
+    walk(s, "unchanged; is undo nothing; key Right");
+    assert_true(fabsf(it->morph.weight[0][1]) > 1e-3f);
+    session_key(s, 'V', 0);
+    assert_near(it->morph.weight[0][1], 0, 0);
+}
+
+// --- the list of the history ----------------------------------------------------------------------------------------------
+
+/// Opens the section, with `steps` knots inserted one after the other.
+static void open_list(struct session *s, int steps)
+{
+    panel_open(s,
+               quoted("{'frames': [0, 480], 'splines': [{'name': 'sway', 'mode': 'cubic', 'knots': [{'frame': 0, "
+                      "'value': 0}]}]}"),
+               1280, 1184);
+    walk(s, "click section.history; key Shift+Left");
+    for (int i = 0; i < steps; i++) walk(s, "key Right I");
+    walk(s, "is splines.0.knots.# %d", 1 + steps);
+}
+
+/// What was undone stays in the list. While a drag holds a step open, the list does nothing.
+SESSION_TEST(test_a_click_goes_to_a_step, open_list(s, 4))
+{
+    walk(s, "shows history.4; lacks history.5; click history.1; is splines.0.knots.# 2; shows history.4;"
+            "click history.3; is splines.0.knots.# 4; click history.0; is splines.0.knots.# 1; is history.saved 1;"
+            "click history.2");
+    history_begin(s->history, "Drag", 0);
+    walk(s, "click history.0; is splines.0.knots.# 3");
+    history_end(s->history);
+}
+
+/// A press gives no keyboard focus; Tab does.
+SESSION_TEST(test_keys_go_through_the_steps, open_list(s, 4))
+{
+    walk(s, "click section.history; click section.history; tab history.4; key Up Up; is splines.0.knots.# 3;"
+            "key Down; is splines.0.knots.# 4; key Up*9; is splines.0.knots.# 1;"
+            "key Tab Enter; is splines.0.knots.# 2"); // the row after it
+}
+
+/// More steps than rows: the list follows the present one, and the wheel shows the others.
+SESSION_TEST(test_a_long_history, open_list(s, 40))
+{
+    walk(s, "shows history.40; lacks history.0; click history.36; is splines.0.knots.# 37;"
+            "wheel 1*20; shows history.0; is splines.0.knots.# 37;" // looking is not going
+            "click history.2; is splines.0.knots.# 3;"
+            "key Ctrl+Y*26; shows history.28");
+}
+
+/// Over the list the wheel moves only that, until it is at its end; then the panel.
+SESSION_TEST(test_the_wheel_over_the_history, open_list(s, 40))
+{
+    const struct ui_list *steps = &s->editor->inspector->history.list;
+    editor_resize(s->editor, 1280, 600, 1);
+    unfold(s->editor, "section.history");
+    walk(s, "frames; point section.history; keep scrolled; is scrolled >100");
+    session_move(s, s->x, s->y + 60);
+    for (float top = steps->offset; top > 0; top = steps->offset) {
+        walk(s, "wheel 1; is scrolled kept");
+        assert_true(steps->offset < top);
+    }
+    walk(s, "wheel 1; is scrolled <kept");
+}
+
+/// The list says what it does not have any more.
+SESSION_TEST(test_a_history_that_has_dropped_steps, open_list(s, 0))
+{
+    editor_resize(s->editor, 1280, 984, 1);
+    history_set_limit(s->history, 2000);
+    for (int i = 0; i < 40; i++) walk(s, "key Right I");
+    const int dropped = (int)history_dropped(s->history);
+    assert_true(dropped > 10);
+    for (int i = 0; i < 20; i++) {
+        walk(s, "point section.history");
+        session_move(s, s->x, s->y + 40);
+        session_wheel(s, 1);
+    }
+    walk(s, "click history.0; is splines.0.knots.# %d; reads %d older steps were dropped", 1 + dropped, dropped);
+}
+
+// --- the first start: what an animator needs first, each further section when it is wanted, and More for the rest ---------------
+
+static void open_first(struct session *s)
+{
+    session_open_file(s, "assets/scenes/tail.json");
+    show_more(s->editor, false);
+    session_frame(s);
+}
+
+SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
+{
+    static const char *const headers[] = {"section.feel", "section.knot", "section.splines"};
+    const struct ui *ui = inspector_of(s->editor);
+    walk(s, "shows preset.cat; shows frequency; shows damping; shows wind-up; shows lag; shows gain; shows knot.next;"
+            "shows spline.sway; shows splines.add; shows more; shows look.stiff;"
+            "lacks follow.frequency; lacks gain.ramp; lacks gain.curve; lacks eye.sway; lacks color.sway;"
+            "lacks splines.delete; lacks section.spline; lacks section.rigs; lacks section.tail; lacks section.pins;"
+            "lacks section.poles; lacks section.history; frames; reads Wiggly; hides Spring"); // none of them is one
+    int count = ui->stop_count; // that Tab reaches, without headers
+    for (int i = 0; i < 3 * ui->stop_count; i++) count -= ui->stop[i / 3].id == ui_id(ui, headers[i % 3]);
+    assert_in_range(count, 10, 20);
+}
+
+/// A section comes with what it is about, and goes with it or when it is closed.
+SESSION_TEST(test_sections_come_when_they_are_wanted, open_first(s))
+{
+    walk(s, "key H; shows section.pins; key Escape; lacks section.pins;" // it pins the tip
+            "key A; type tai; key Enter; shows section.tail; click section.tail; lacks section.tail;"
+            "click more; shows follow.frequency; key F9; lacks follow.frequency; key F9");
+    sections(s->editor)->offset = 1e6f;
+    walk(s, "frames; shows section.history");
+}
+
+/// A click on a tail makes it the subject: its spline is the active one, and its section comes.
+SESSION_TEST(test_a_clicked_tail_is_shown, open_first(s))
+{
+    walk(s, "key PageDown PageDown; lacks section.tail;" // the breath
+            "on tail(tail,0.8); is active.name sway; shows section.tail;"
+            "key PageDown; on tail(tail,0.8); is active.name up; is history.done 0"); // bent by this one, too
+}
+
+/// Without splines there is something to begin with.
+WALK(test_an_empty_scene_is_not_an_empty_inspector, "{'frames': [0, 96]}", 1280, 720,
+     "more off; shows rig.add; shows splines.add")
+
+static const char mixed[] =
+    "{'frames': [0, 96], 'splines': [{'name': 'tail', 'frequency': 1, 'damping': 0.1, 'knots': [{'frame': 0, "
+    "'value': "
+    "1}]}, {'name': 'cubic', 'mode': 'cubic', 'knots': [{'frame': 0, 'value': 1}]}, {'name': 'follows', 'frequency': "
+    "{'spline': 'cubic'}, 'knots': [{'frame': 0, 'value': 1}]}, {'name': 'fast', 'frequency': 40, 'knots': "
+    "[{'frame': "
+    "0, 'value': 1}]}, {'name': 'idle', 'mode': 'real', 'knots': []}], 'rigs': [{'type': 'tail', 'name': 'tail', "
+    "'joints': 3, 'channels': [{'spline': 'tail', 'lag': {'ramp': [[0, 6], [1, 9]]}, 'gain': [3, 6, 9]}, {'spline': "
+    "'fast', 'axis': 'up'}]}]}";
+
+/// No row moves when another spline becomes active, whatever kind it is and whatever is said of it; nor with More, beside a spline whose lag
+/// or gain is a curve.
+SESSION_TEST(test_rows_stay_where_they_are, panel_open(s, quoted(mixed), 1280, 2000))
+{
+    static const char *const rows[] = {"section.knot", "section.splines", "more", "section.rigs", "section.tail"};
+    for (int more = 0; more < 2; more++) {
+        const int count = more ? 5 : 3;
+        walk(s, more ? "more" : "more off");
+        for (int r = 0; r < count; r++) walk(s, "keep y:%s", rows[r]);
+        for (int i = 0; i < 5; i++) {
+            walk(s, "key PageDown; frames");
+            for (int r = 0; r < count; r++) walk(s, "is y:%s kept", rows[r]);
         }
     }
 }
 
-/// The status line shows it after the panel was laid out.
-TEST(test_the_hint_of_a_position_outlives_the_panel)
+/// Where a text is drawn; outside the panel if it is scrolled out of sight.
+static float drawn_at(const struct session *s, const char *words)
 {
-    static const char tail[] =
-        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], "
-        "\"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\"}]}";
-    struct session s;
-    float x, y;
-    panel_open(&s, tail, 1280, 1400);
-    assert_true(widget_at(s.editor, "position.y", &x, &y));
-    session_move(&s, x, y);
-    session_frame(&s);
-    assert_string_equal(inspector_of(s.editor)->hint, "Position of the body along y");
-    session_close(&s);
+    const struct draw_command *text = shown_text(s->editor, words);
+    return text ? text->y : -1e6f;
+}
+
+/// In the frame in which the panel gets shorter, or a section is asked for, it is drawn where it stays. A section higher than the panel is
+/// shown from its top, also if it is half in sight.
+SESSION_TEST(test_the_first_frame_is_right, panel_open(s, quoted(mixed), 1280, 360))
+{
+    struct inspector *inspector = s->editor->inspector;
+    walk(s, "more");
+    inspector->sections.offset = 1e6f;
+    session_frame(s);
+    for (int unfolded = 0; unfolded < 2; unfolded++) {
+        const char *title = unfolded ? "Tail set-up" : "More";
+        if (unfolded) inspector_unfold(inspector, "section.tail");
+        show_more(s->editor, unfolded);
+        session_frame(s);
+        const float first = drawn_at(s, title);
+        session_frame(s);
+        assert_near(drawn_at(s, title), first, 0);
+        assert_in_range(first, 0, unfolded ? 2 * UI_ROW : 360);
+    }
+    inspector->sections.offset += 100;
+    inspector_unfold(inspector, "section.tail");
+    session_frame(s);
+    assert_in_range(drawn_at(s, "Tail set-up"), 0, 2 * UI_ROW);
 }
