@@ -1,5 +1,7 @@
 /// The verbs of walks: what a hand does, and what is to be seen after it.
 #include "walks.h"
+
+#include "export/export.h"
 #include <jansson.h>
 
 static const char *step; ///< as written, for failures
@@ -51,6 +53,8 @@ static bool find(struct session *s, const char *name, char text[512])
                  {"bone", selected_bone(e)},
                  {"cursor", cursors[editor_cursor(e)]},
                  {"dragged", dragged(e) ? dragged(e) : "nothing"},
+                 {"export.ending", export_formats[e->dialogs->exporting.format].ending},
+                 {"export.path", e->dialogs->exporting.memory.path},
                  {"field", inspector_of(e)->text.bytes},
                  {"hint", inspector_of(e)->hint ? inspector_of(e)->hint : "nothing"},
                  {"hovered", hovered(e) ? hovered(e)->name : "nothing"},
@@ -73,6 +77,7 @@ static bool find(struct session *s, const char *name, char text[512])
                    {"channel", shown_channel(e)},
                    {"choice", dialog_of(e)->choice},
                    {"curves.others", e->curves->cache.other_count},
+                   {"export.keys", e->dialogs->exporting.memory.wish.keys},
                    {"frame", shown_frame(e)},
                    {"history.done", (double)history_done(s->history)},
                    {"history.saved", history_is_saved(s->history)},
@@ -86,6 +91,7 @@ static bool find(struct session *s, const char *name, char text[512])
                    {"plot.top", plot_of(e)->value1},
                    {"popup", inspector_of(e)->popup.id != 0},
                    {"position", playback_of(e)->position},
+                   {"recent", dialog_of(e)->recent_count},
                    {"record", is_on(e, SWITCH_RECORD)},
                    {"rig", shown_rig(e)},
                    {"scrolled", sections(e)->offset},
@@ -96,6 +102,7 @@ static bool find(struct session *s, const char *name, char text[512])
                    {"stage.tails", e->stage->tail_count},
                    {"trail", is_on(e, SWITCH_TRAIL)},
                    {"typing", inspector_of(e)->typing != 0},
+                   {"welcoming", is_welcoming(e)},
                    {"warnings", warnings_of(e)->count}};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         if (strcmp(name, texts[i].name) == 0) return snprintf(text, 512, "%s", texts[i].text) >= 0;
@@ -435,6 +442,28 @@ static void answer(struct session *s, const char *what)
     panel_answer(s, kind, !*words, words);
 }
 
+/// The app has work of an earlier run.
+static void offer(struct session *s, const char *what)
+{
+    (void)what;
+    offer_recovery(s->editor, &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 1});
+    session_frame(s);
+}
+
+static void welcomes(struct session *s, const char *what)
+{
+    (void)what;
+    welcome(s->editor);
+    session_frame(s);
+}
+
+/// The app has opened a file.
+static void opened(struct session *s, const char *what)
+{
+    (void)what;
+    editor_open(s->editor, &s->world);
+}
+
 /// The app names the document's file.
 static void path(struct session *s, const char *what) { set_path(s->editor, what); }
 static void tell_it(struct session *s, const char *what) { tell(s->editor, false, "%s", what); }
@@ -442,17 +471,18 @@ static void tell_it(struct session *s, const char *what) { tell(s->editor, false
 static const struct {
     const char *word;
     void (*takes)(struct session *s, const char *what);
-} verbs[] = {{"answer", answer},       {"asks", asks},       {"at", at},         {"by", by},
-             {"carry", carry},         {"click", click},     {"close", closes},  {"keep", keep},
-             {"mentions", mentions},   {"ignores", ignores}, {"point", point},   {"seek", seek_it},
-             {"enter", enter},         {"errs", errs},       {"frames", frames}, {"has", has},
-             {"hides", hides},         {"hold", hold},       {"is", is},         {"key", key},
-             {"lacks", lacks},         {"mark", mark},       {"more", more},     {"on", on},
-             {"over", over},           {"path", path},       {"press", press},   {"pull", pull},
-             {"reads", reads},         {"release", release}, {"says", says},     {"shows", shows},
-             {"slide", slide},         {"step", one_step},   {"tab", tab},       {"tap", tap},
-             {"tap-twice", tap_twice}, {"tell", tell_it},    {"twice", twice},   {"type", type},
-             {"unchanged", unchanged}, {"undone", undone},   {"wheel", wheel}};
+} verbs[] = {{"answer", answer},     {"asks", asks},       {"at", at},         {"by", by},
+             {"carry", carry},       {"click", click},     {"close", closes},  {"keep", keep},
+             {"mentions", mentions}, {"ignores", ignores}, {"point", point},   {"seek", seek_it},
+             {"enter", enter},       {"errs", errs},       {"frames", frames}, {"has", has},
+             {"hides", hides},       {"hold", hold},       {"is", is},         {"key", key},
+             {"lacks", lacks},       {"mark", mark},       {"more", more},     {"on", on},
+             {"over", over},         {"path", path},       {"offer", offer},   {"opened", opened},
+             {"welcome", welcomes},  {"press", press},     {"pull", pull},     {"reads", reads},
+             {"release", release},   {"says", says},       {"shows", shows},   {"slide", slide},
+             {"step", one_step},     {"tab", tab},         {"tap", tap},       {"tap-twice", tap_twice},
+             {"tell", tell_it},      {"twice", twice},     {"type", type},     {"unchanged", unchanged},
+             {"undone", undone},     {"wheel", wheel}};
 
 static void take(struct session *s, char *sentence)
 {

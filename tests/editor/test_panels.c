@@ -127,8 +127,6 @@ static void check_dialogs(struct session *f)
     }
 }
 
-static int calls;
-
 static int list_names(void *user, const char *folder, char names[][256], int max)
 {
     static const char long_name[] =
@@ -140,7 +138,7 @@ static int list_names(void *user, const char *folder, char names[][256], int max
     const char *const *source = in_root ? root : figures;
     int count = in_root ? 5 : strcmp(folder, "figures/") == 0 ? 2 : -1;
     (void)user;
-    calls++;
+
     for (int i = 0; i < count && i < max; i++) snprintf(names[i], 256, "%s", source[i]);
     return count;
 }
@@ -165,179 +163,6 @@ TEST(test_no_text_leaves_its_panel_or_overlaps)
 }
 
 // --- behaviour --------------------------------------------------------------------------------------------------------
-
-static void expect_request(struct session *f, enum request_kind kind, const char *path)
-{
-    struct request request = session_asked(f);
-    assert_int_equal(request.kind, kind);
-    assert_string_equal(request.path, path);
-}
-
-static void answer_saved(struct session *f, enum request_kind kind, const char *path)
-{
-    set_path(f->editor, path);
-    panel_answer(f, kind, true, "");
-}
-
-SESSION_TEST(test_save_as_stays_until_it_succeeds, panel_open(s, small_scene, 1280, 720))
-{
-    set_path(s->editor, "");
-    session_key(s, 'S', MOD_CTRL); // has no file yet, so it asks
-    assert_int_equal(asked(s->editor), DIALOG_SAVE_AS);
-    assert_string_equal(typed(s->editor), "untitled.json");
-    panel_type(s, "no/such/dog");
-    session_key(s, KEY_ENTER, 0);
-    expect_request(s, REQUEST_SAVE_AS, "no/such/dog.json");
-    panel_answer(s, REQUEST_SAVE_AS, false, "no/such/dog.json: there is no such folder");
-    assert_int_equal(asked(s->editor), DIALOG_SAVE_AS);
-    assert_non_null(strstr(asked_error(s->editor), "no such folder"));
-    assert_string_equal(said(s->editor), "");
-    for (int i = 0; i < 20; i++) session_key(s, KEY_BACKSPACE, 0);
-    session_key(s, KEY_ENTER, 0); // nothing typed
-    expect_request(s, REQUEST_NONE, "");
-    panel_type(s, "untitled.json");
-    session_key(s, KEY_ENTER, 0);
-    expect_request(s, REQUEST_SAVE_AS, "untitled.json");
-    answer_saved(s, REQUEST_SAVE_AS, "pets/dog.json");
-    assert_int_equal(asked(s->editor), DIALOG_NONE);
-    session_key(s, 'S', MOD_CTRL);
-    expect_request(s, REQUEST_SAVE, "");
-    session_key(s, 'S', MOD_CTRL | MOD_SHIFT); // starts from where the file is, not from its bare name
-    assert_string_equal(typed(s->editor), "pets/dog.json");
-}
-
-/// Changes something, then asks to quit.
-static void open_unsaved(struct session *f, bool has_path)
-{
-    panel_open(f, small_scene, 1280, 720);
-    set_path(f->editor, has_path ? "pets/dog.json" : "");
-    panel_click(f, "mode.real");
-    session_key(f, 'Q', MOD_CTRL);
-    assert_int_equal(asked(f->editor), DIALOG_UNSAVED);
-}
-
-TEST(test_quitting_asks_for_unsaved_work)
-{
-    struct session f;
-    open_unsaved(&f, true);
-    session_key(&f, KEY_ESCAPE, 0);
-    assert_int_equal(asked(f.editor), DIALOG_NONE);
-    expect_request(&f, REQUEST_NONE, "");
-    session_key(&f, 'Q', MOD_CTRL);
-    panel_type(&f, "d");
-    expect_request(&f, REQUEST_QUIT, "");
-    session_close(&f);
-
-    open_unsaved(&f, true);
-    session_key(&f, KEY_RIGHT, 0);
-    session_key(&f, KEY_ENTER, 0); // Discard
-    expect_request(&f, REQUEST_QUIT, "");
-    session_close(&f);
-
-    panel_open(&f, small_scene, 1280, 720); // nothing to lose
-    session_key(&f, 'Q', MOD_CTRL);
-    expect_request(&f, REQUEST_QUIT, "");
-    session_close(&f);
-}
-
-TEST(test_quit_waits_for_the_save)
-{
-    struct session f;
-    open_unsaved(&f, true);
-    panel_type(&f, "s");
-    expect_request(&f, REQUEST_SAVE, "");
-    expect_request(&f, REQUEST_NONE, "");
-    panel_answer(&f, REQUEST_SAVE, false, "dog.json: the disk is full");
-    expect_request(&f, REQUEST_NONE, ""); // the work in memory stays
-    assert_int_equal(asked(f.editor), DIALOG_UNSAVED);
-    panel_type(&f, "s");
-    expect_request(&f, REQUEST_SAVE, "");
-    history_mark_saved(f.history);
-    answer_saved(&f, REQUEST_SAVE, "pets/dog.json");
-    expect_request(&f, REQUEST_QUIT, "");
-    session_close(&f);
-
-    open_unsaved(&f, false); // never saved: first asks where
-    panel_type(&f, "s");
-    assert_int_equal(asked(f.editor), DIALOG_SAVE_AS);
-    assert_string_equal(typed(f.editor), "untitled.json"); // and the S is no part of the name
-    session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
-    answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
-    expect_request(&f, REQUEST_QUIT, "");
-    session_close(&f);
-}
-
-TEST(test_cancelled_save_as_forgets_what_was_to_follow)
-{
-    struct session f;
-    open_unsaved(&f, false);
-    panel_type(&f, "s");
-    session_key(&f, KEY_ESCAPE, 0);
-    session_key(&f, 'S', MOD_CTRL | MOD_SHIFT);
-    session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
-    answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
-    expect_request(&f, REQUEST_NONE, ""); // does not quit after all
-    session_close(&f);
-}
-
-TEST(test_open_completes_paths)
-{
-    calls = 0;
-    struct session f;
-    panel_open(&f, small_scene, 1280, 720);
-    list_files(f.editor, &(struct editor_app){.list = list_names});
-    session_key(&f, 'O', MOD_CTRL);
-    struct dialog *dialog = dialog_of(f.editor);
-    assert_int_equal(dialog->match_count, 5);
-    panel_type(&f, "fi");
-    assert_int_equal(dialog->match_count, 4); // also in the middle of a name, but after those that begin so
-    assert_string_equal(dialog->names[dialog->match[0]], "figures/");
-    session_key(&f, KEY_TAB, 0);
-    assert_string_equal(dialog->ui.text.bytes, "figure");
-    assert_int_equal(calls, 1); // listed once, not at every key
-    session_key(&f, KEY_DOWN, 0);
-    session_key(&f, KEY_ENTER, 0); // into the folder
-    assert_string_equal(dialog->ui.text.bytes, "figures/");
-    assert_int_equal(dialog->match_count, 2);
-    expect_request(&f, REQUEST_NONE, "");
-    session_key(&f, KEY_DOWN, 0);
-    session_key(&f, KEY_DOWN, 0);
-    session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_OPEN, "figures/two.json");
-    panel_answer(&f, REQUEST_OPEN, false, "figures/two.json:3: expected a number");
-    assert_int_equal(dialog->kind, DIALOG_OPEN);
-    session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_OPEN, "figures/two.json");
-    editor_open(f.editor, &f.world);
-    panel_answer(&f, REQUEST_OPEN, true, "");
-    assert_int_equal(dialog->kind, DIALOG_NONE);
-    session_key(&f, 'O', MOD_CTRL);
-    panel_type(&f, "figures/t");
-    assert_int_equal(dialog->match_count, 1);
-    assert_false(session_shows(&f, "Nothing matches."));
-    session_key(&f, KEY_ENTER, 0); // the only file that can be meant
-    expect_request(&f, REQUEST_OPEN, "figures/two.json");
-    panel_answer(&f, REQUEST_OPEN, true, "");
-    session_key(&f, 'O', MOD_CTRL);
-    panel_type(&f, "nobody");
-    assert_true(session_shows(&f, "Nothing matches."));
-    session_close(&f);
-}
-
-SESSION_TEST(test_dialog_takes_every_key, panel_open(s, small_scene, 1280, 720))
-{
-    session_key(s, 'O', MOD_CTRL);
-    panel_type(s, "vim. ");
-    session_key(s, 'Z', MOD_CTRL);
-    session_key(s, KEY_F1, 0);
-    session_key(s, KEY_DELETE, 0);
-    assert_int_equal(look(s->editor), LOOK_WIGGLY);
-    assert_false(looked_up(s->editor) == LOOKUP_KEYS);
-    assert_int_equal(s->document->splines[0]->knot_count, 2);
-    assert_string_equal(typed(s->editor), "vim. ");
-}
 
 /// The figures at the right must not cost a redraw every frame.
 SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280, 720))
