@@ -214,7 +214,7 @@ static void errs(struct session *s, const char *what) { assert_said_error(s->edi
 
 static void has(struct session *s, const char *what)
 {
-    if (!strstr(session_saved(s), what)) fail_msg("“%s”: the scene does not", step);
+    if (!strstr(session_saved(s), quoted(what))) fail_msg("“%s”: the scene does not", step);
 }
 
 static void mark(struct session *s, const char *what)

@@ -1,57 +1,45 @@
-/// Bones of an imported character on the stage: pointed at, selected, made into chains, and dragged.
-#include "panel_session.h"
-
+/// Imported characters on the stage: bones are pointed at, chosen, made into chains and dragged; a stranger's rig with controls, poles and
+/// leaves; and models without bones.
 #include "beast.h"
-#include "editor/core/rigs.h"
 #include "folder.h"
+#include "walks.h"
 
-/// The beast on the stage at rest, with a chain in its left ear. The pointer is where it does nothing.
-static void open_beast(struct session *session, const char *chains)
+TESTS_BETWEEN(folder_make, folder_remove)
+
+/// The beast on the stage, with chains. The pointer is where it does nothing.
+static void open_beast(struct session *s, const char *equilibrium, const char *more_rigs)
 {
-    char scene[4096];
+    char text[4096];
     assert_true(beast_write(folder_path("beast.glb")));
-    snprintf(
-        scene, sizeof scene,
-        "{\"wiggly\": 1, \"fps\": 24, \"frames\": [0, 48], \"splines\": [{\"name\": \"flick\", \"frequency\": 1, "
-        "\"damping\": 0.1, \"knots\": []}], \"rigs\": [{\"type\": \"model\", \"name\": \"beast\", \"model\": "
-        "\"%s\"}%s]}",
-        folder_path("beast.glb"), chains);
-    panel_open_models(session, scene);
-    session_move(session, 2, 2);
-    session_frame(session);
+    snprintf(text, sizeof text,
+             "{'fps': 24, 'frames': [0, 48], 'splines': [{'name': 'flick', 'frequency': 1, 'damping': 0.1, "
+             "'equilibrium': %s, 'knots': []}, {'name': 'perk', 'frequency': 1, 'damping': 0.1, 'knots': []}], "
+             "'rigs': [{'type': 'model', 'name': 'beast', 'model': '%s'}%s]}",
+             equilibrium, folder_path("beast.glb"), more_rigs);
+    panel_open_models(s, quoted(text));
+    walk(s, "at 2 2; mark");
 }
 
-#define TAIL                                                                                                         \
-    ", {\"type\": \"chain\", \"name\": \"tail\", \"model\": \"beast\", \"from\": \"tail_1\", \"to\": \"tail_8\", "   \
-    "\"channels\": [{\"spline\": \"flick\", \"axis\": \"side\", \"lag\": 20, \"gain\": 8}]}"
-#define LEFT_EAR                                                                                                     \
-    ", {\"type\": \"chain\", \"name\": \"ear_L\", \"model\": \"beast\", \"from\": \"ear_L_1\", \"to\": "             \
-    "\"ear_L_2\", "                                                                                                  \
-    "\"channels\": [{\"spline\": \"flick\", \"axis\": \"side\", \"lag\": 20, \"gain\": 8}]}"
+#define CHAIN(name, from, to, axis)                                                                                  \
+    ", {'type': 'chain', 'name': '" name "', 'model': 'beast', 'from': '" from "', 'to': '" to                       \
+    "', 'channels': [{'spline': 'flick', 'axis': '" axis "', 'lag': 20, 'gain': 8}]}"
+#define TAIL CHAIN("tail", "tail_1", "tail_8", "side")
+#define TAIL_UP CHAIN("tail", "tail_1", "tail_8", "up")
+#define LEFT_EAR CHAIN("ear_L", "ear_L_1", "ear_L_2", "side")
 
-SESSION_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, open_beast(s, ""))
-{
-    assert_false(session_shows(s, "neck"));
-    session_hover(s, "bone(neck)");
-    assert_ptr_equal(hovered(s->editor), &thing_bone);
-    assert_true(session_shows(s, "neck"));
-    assert_string_equal(selected_bone(s->editor), "");
-    session_click(s, "bone(neck)");
-    assert_string_equal(selected_bone(s->editor), "neck");
-    session_click(s, "bone(leg_FL_2)");
-    assert_string_equal(selected_bone(s->editor), "leg_FL_2");
-    session_key(s, KEY_ESCAPE, 0);
-    assert_string_equal(selected_bone(s->editor), "");
-    session_click(s, "bone(neck)");
-    session_click(s, "stage(0.02,0.95)");
-    assert_string_equal(selected_bone(s->editor), "");
-}
+#define BEAST_TEST(name, chains) SESSION_TEST(name, open_beast(s, "0", chains))
+
+// --- bones --------------------------------------------------------------------------------------------------------------
 
 /// A drag from a bone moves the character; it is no click.
-SESSION_TEST(test_a_drag_from_a_bone_selects_nothing, open_beast(s, ""))
+BEAST_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, "")
 {
-    session_carry(s, "bone(neck)", 40, 0, 4);
-    assert_string_equal(selected_bone(s->editor), "");
+    walk(s, "hides neck; over bone(neck); reads neck; is bone ;"
+            "on bone(neck); is bone neck; on bone(leg_FL_2); is bone leg_FL_2; key Escape; is bone ;"
+            "on bone(neck); on stage(0.02,0.95); is bone ;"
+            "carry bone(neck) 40 0; is bone ;"
+            "over bone(neck)");
+    assert_ptr_equal(hovered(s->editor), &thing_bone);
 }
 
 /// How far a bone is turned from its rest, as a chord.
@@ -66,313 +54,60 @@ static float turned(const struct session *s, const char *name)
 }
 
 /// It goes where the pointer takes it, its chain swings after it and comes to rest; one step, and Esc takes it back.
-SESSION_TEST(test_a_dragged_character_moves_and_its_chain_follows_through, open_beast(s, TAIL))
+BEAST_TEST(test_a_dragged_character_moves_and_its_chain_follows_through, TAIL)
 {
-    const char *before = session_saved(s);
     const float *root = editor_stage(s->editor)->models[0].root;
     const float start[2] = {root[12], root[14]};
-    session_pull(s, "bone(neck)", 80, 0, 6);
-    assert_true(hypotf(root[12] - start[0], root[14] - start[1]) > 0.1f);
+    walk(s, "hold bone(neck) 80 0 6");
+    const float held[2] = {root[12], root[14]};
+    assert_true(hypotf(held[0] - start[0], held[1] - start[1]) > 0.1f);
     assert_true(turned(s, "tail_8") > 0.02f);
     assert_near(turned(s, "neck"), 0, 1e-6);
-    const float held[2] = {root[12], root[14]};
-    session_release(s, BUTTON_LEFT);
-    session_frame(s);
-    const struct model_rig *moved = &s->document->rigs[0]->model;
+    walk(s, "release; frames; is rigs.0.position.1 0; is bone ");
     assert_near(root[12], held[0], 1e-3);
     assert_near(root[14], held[1], 1e-3);
-    assert_true(hypot(moved->position[0], moved->position[2]) > 0.1);
-    assert_near(moved->position[1], 0, 0);
-    assert_string_equal(selected_bone(s->editor), "");
-    for (int frame = 0; frame < 1200; frame++) session_frame(s);
+    assert_true(hypot(number(s, "rigs.0.position.0"), number(s, "rigs.0.position.2")) > 0.1);
+    walk(s, "frames 1200");
     assert_near(turned(s, "tail_8"), 0, 1e-6);
-    assert_one_step(s, before);
-    session_key(s, 'Z', MOD_CTRL);
-    session_pull(s, "bone(neck)", 0, 40, 4);
-    session_key(s, KEY_ESCAPE, 0);
-    session_release(s, BUTTON_LEFT);
-    assert_saved(s, before);
+    walk(s, "step; key Ctrl+Z; hold bone(neck) 0 40; key Escape; release; unchanged");
 }
 
-/// Seen from the side both legs lie over each other: the near one is meant.
 /// Alt+V: the clip alone stands beside it, and no chain bends that one.
-SESSION_TEST(test_the_original_is_shown_beside_it, open_beast(s, TAIL))
+BEAST_TEST(test_the_original_is_shown_beside_it, TAIL)
 {
-    assert_done(edit_knot_insert(s->editor->core.document, 0, &(struct knot){.value = 2, .stiffness = 1}, &error));
-    session_key(s, 'V', MOD_ALT);
-    session_frame(s);
     const struct stage_view *view = editor_stage(s->editor);
-    assert_int_equal(view->model_count, 2);
     const struct stage_model *beast = view->models;
+    assert_done(edit_knot_insert(s->editor->core.document, 0, &(struct knot){.value = 2, .stiffness = 1}, &error));
+    walk(s, "key Alt+V; frames");
+    assert_int_equal(view->model_count, 2);
     const int tip = gltf_find_node(beast[0].gltf, "tail_8"), hips = gltf_find_node(beast[0].gltf, "hips");
     assert_true(beast[1].root[12] > beast[0].root[12] + 0.5f);
     assert_memory_equal(beast[0].pose->world[hips], beast[1].pose->world[hips], sizeof *beast->pose->world);
     assert_true(fabsf(beast[0].pose->world[tip][12] - beast[1].pose->world[tip][12]) > 0.05f);
-    session_key(s, 'V', MOD_ALT);
-    session_frame(s);
-    assert_int_equal(editor_stage(s->editor)->model_count, 1);
+    walk(s, "key Alt+V; frames");
+    assert_int_equal(view->model_count, 1);
 }
 
-SESSION_TEST(test_of_bones_over_each_other_the_near_one_is_picked, open_beast(s, ""))
+/// Seen from the side both legs lie over each other: the near one is meant.
+BEAST_TEST(test_of_bones_over_each_other_the_near_one_is_picked, "")
 {
     const struct stage_view *view = editor_stage(s->editor);
     for (int turn = 0; turn < 16; turn++) {
         float left[2], right[2];
         struct error error;
-        session_key(s, KEY_LEFT, MOD_CTRL | MOD_SHIFT);
+        walk(s, "key Ctrl+Shift+Left");
         if (!editor_target(s->editor, "bone(leg_FL_1)", &left[0], &left[1], &error)) continue;
         if (!editor_target(s->editor, "bone(leg_FR_1)", &right[0], &right[1], &error)) continue;
         if (fabsf(left[0] - right[0]) > 2) continue;
         session_move(s, (left[0] + right[0]) / 2, (left[1] + right[1]) / 2);
         session_frame(s);
         session_click_here(s, 1);
-        assert_string_equal(selected_bone(s->editor), view->eye[0] > 0 ? "leg_FL_1" : "leg_FR_1");
+        walk(s, "is bone leg_F%c_1", view->eye[0] > 0 ? 'L' : 'R');
     }
-    session_move(s, 2, 2);
 }
-
-SESSION_TEST(test_a_key_makes_a_chain_to_the_tip_in_one_step, open_beast(s, ""))
-{
-    const char *before = session_saved(s);
-    session_key(s, 'J', 0);
-    assert_saved(s, before);
-    session_click(s, "bone(tail_3)");
-    session_key(s, 'J', 0);
-    assert_int_equal(s->document->rig_count, 2);
-    const struct rig *made = s->document->rigs[1];
-    assert_int_equal(made->kind, RIG_CHAIN);
-    assert_string_equal(made->chain.from, "tail_3");
-    assert_string_equal(made->chain.to, "tail_8");
-    assert_true(made->chain.channel_count >= 1);
-    assert_int_equal(active(s->editor), made->chain.channels[0].spline);
-    assert_int_equal(shown_rig(s->editor), 1);
-    assert_one_step(s, before);
-    session_key(s, 'Z', MOD_CTRL);
-    assert_string_equal(selected_bone(s->editor), "tail_3");
-    panel_click(s, "bone.chain");
-    assert_int_equal(s->document->rig_count, 2);
-}
-
-SESSION_TEST(test_a_bone_that_branches_is_refused_with_a_sentence, open_beast(s, ""))
-{
-    const char *before = session_saved(s);
-    session_click(s, "bone(head)");
-    assert_string_equal(selected_bone(s->editor), "head");
-    session_key(s, 'J', 0);
-    assert_saved(s, before);
-    assert_said_error(s->editor, "\"head\" branches into \"ear_L_1\" and \"ear_R_1\"");
-}
-
-/// The grabbed point follows the pointer, by a knot at the playhead; one step, and Esc takes it back.
-SESSION_TEST(test_dragging_a_chain_sets_a_knot, open_beast(s, TAIL))
-{
-    const char *before = session_saved(s);
-    float tip[2];
-    session_pull(s, "chain(tail,0.95)", 0, -30, 12);
-    for (int frame = 0; frame < 60; frame++) session_frame(s);
-    const float x = s->x, y = s->y;
-    session_release(s, BUTTON_LEFT);
-    assert_int_equal(s->document->splines[0]->knot_count, 1);
-    assert_done(editor_target(s->editor, "chain(tail,0.95)", &tip[0], &tip[1], &error));
-    assert_true(hypotf(tip[0] - x, tip[1] - y) < 30); // one axis only: as near as it gets
-    assert_one_step(s, before);
-    session_key(s, 'Z', MOD_CTRL);
-    session_pull(s, "chain(tail,0.8)", 25, 0, 6);
-    session_key(s, KEY_ESCAPE, 0);
-    assert_saved(s, before);
-    session_release(s, BUTTON_LEFT);
-}
-
-/// With an axis each way the point comes to the pointer itself.
-SESSION_TEST(test_a_chain_of_two_axes_comes_to_the_pointer, open_beast(s, TAIL))
-{
-    float tip[2];
-    session_click(s, "chain(tail,0.5)");
-    panel_click(s, "splines.add");
-    panel_click(s, "channel.add");
-    panel_click(s, "axis.up");
-    assert_int_equal(s->document->rigs[1]->chain.channels[1].axis, AXIS_UP);
-    session_pull(s, "chain(tail,0.9)", 12, 18, 12);
-    for (int frame = 0; frame < 60; frame++) session_frame(s);
-    const float x = s->x, y = s->y;
-    session_release(s, BUTTON_LEFT);
-    assert_done(editor_target(s->editor, "chain(tail,0.9)", &tip[0], &tip[1], &error));
-    assert_true(hypotf(tip[0] - x, tip[1] - y) < 1.5f);
-}
-
-SESSION_TEST(test_a_click_on_a_chain_selects_its_bone, open_beast(s, TAIL LEFT_EAR))
-{
-    const char *before = session_saved(s);
-    session_click(s, "bone(tail_4)");
-    assert_string_equal(selected_bone(s->editor), "tail_4");
-    assert_saved(s, before);
-}
-
-SESSION_TEST(test_the_inspector_chooses_the_clip, open_beast(s, ""))
-{
-    const char *before = session_saved(s);
-    panel_click(s, "model.clips.0");
-    panel_click(s, "item.Nod");
-    assert_string_equal(s->document->rigs[0]->model.clip, "Nod");
-    panel_click(s, "model.loops");
-    assert_int_equal(s->document->rigs[0]->model.repeat, REPEAT_ONCE);
-    assert_non_null(strstr(session_saved(s), "\"repeat\": \"once\""));
-    panel_click(s, "model.loops");
-    assert_int_equal(s->document->rigs[0]->model.repeat, REPEAT_LOOP);
-    session_key(s, 'Z', MOD_CTRL);
-    session_key(s, 'Z', MOD_CTRL);
-    assert_one_step(s, before);
-    panel_click(s, "model.clips.0");
-    panel_click(s, "item.none");
-    assert_null(s->document->rigs[0]->model.clip);
-    assert_saved(s, before);
-    panel_enter(s, "model.scale", "2");
-    panel_enter(s, "model.turn", "90");
-    panel_enter(s, "model.x", "0.5");
-    assert_near(s->document->rigs[0]->model.scale, 2, 0);
-    assert_near(s->document->rigs[0]->model.turn, 90, 0);
-    assert_near(s->document->rigs[0]->model.position[0], 0.5, 0);
-}
-
-/// Each move of the drag makes its edit anew, of the chain as it was at the press.
-SESSION_TEST(test_a_chains_turn_is_dragged, open_beast(s, TAIL))
-{
-    const char *before = session_saved(s);
-    char *from = strdup(s->document->rigs[1]->chain.from);
-    panel_pull(s, "chain.turn", 40, 0, 6);
-    assert_true(s->document->rigs[1]->chain.turn > 0);
-    assert_string_equal(s->document->rigs[1]->chain.from, from);
-    assert_one_step(s, before);
-    free(from);
-}
-
-SESSION_TEST(test_a_chain_is_edited_in_the_inspector, open_beast(s, TAIL))
-{
-    const char *before = session_saved(s);
-    panel_click(s, "axis.twist");
-    assert_int_equal(s->document->rigs[1]->chain.channels[0].axis, AXIS_TWIST);
-    panel_click(s, "chain.mirror");
-    panel_enter(s, "chain.turn", "30");
-    panel_enter(s, "gain", "11");
-    panel_click(s, "tail.name");
-    session_key(s, 'A', MOD_CTRL);
-    panel_type(s, "brush");
-    session_key(s, KEY_ENTER, 0);
-    const struct rig *rig = s->document->rigs[1];
-    assert_true(rig->chain.mirror);
-    assert_near(rig->chain.turn, 30, 0);
-    assert_near(rig->chain.channels[0].gain.value[0], 11, 0);
-    assert_string_equal(rig->name, "brush");
-    panel_click(s, "rig.delete");
-    session_key(s, 'K', 0); // its spline stays
-    assert_int_equal(s->document->rig_count, 1);
-    for (int step = 0; step < 6; step++) session_key(s, 'Z', MOD_CTRL);
-    assert_saved(s, before);
-}
-
-static const struct angles *gain_of_tail(const struct session *s)
-{
-    return &s->document->rigs[1]->chain.channels[0].gain;
-}
-
-SESSION_TEST(test_a_gain_becomes_a_ramp_whose_points_move, open_beast(s, TAIL))
-{
-    const char *before = session_saved(s);
-    panel_click(s, "gain.ramp");
-    assert_int_equal(gain_of_tail(s)->form, ANGLES_RAMP);
-    assert_int_equal(gain_of_tail(s)->count, 2);
-    assert_near(gain_of_tail(s)->ramp[1].angle, 8, 0);
-    const char *flat = session_saved(s);
-    panel_pull(s, "gain.point.1", -40, -12, 4);
-    assert_true(gain_of_tail(s)->ramp[1].angle > 8);
-    assert_true(gain_of_tail(s)->ramp[1].at < 1);
-    assert_one_step(s, flat);
-    panel_press(s, "gain.point.0", 1);
-    session_move(s, s->x + 60, s->y - 8);
-    session_release(s, BUTTON_LEFT);
-    session_move(s, s->x + 8, s->y + 16); // beside the line
-    session_click_here(s, 2);
-    assert_int_equal(gain_of_tail(s)->count, 3);
-    panel_press(s, "gain.point.1", 1);
-    session_release(s, BUTTON_LEFT);
-    session_key(s, KEY_DELETE, 0);
-    assert_int_equal(gain_of_tail(s)->count, 2);
-    session_key(s, KEY_DELETE, 0);
-    assert_int_equal(gain_of_tail(s)->count, 2); // a ramp needs them
-    panel_click(s, "gain.ramp");                 // lit: back to one
-    assert_int_equal(gain_of_tail(s)->form, ANGLES_ONE);
-    for (int step = 0; step < 6; step++) session_key(s, 'Z', MOD_CTRL);
-    assert_saved(s, before);
-}
-
-static double highest(const struct angles *ramp)
-{
-    double highest = 0;
-    for (int i = 0; i < ramp->count; i++) highest = fmax(highest, ramp->ramp[i].angle);
-    return highest;
-}
-
-SESSION_TEST(test_a_ramps_plot_is_as_high_as_its_points, open_beast(s, TAIL))
-{
-    panel_click(s, "gain.ramp");
-    const double *scale = s->editor->inspector->ramp_scale[ANGLE_GAIN];
-    panel_pull(s, "gain.point.0", 0, -30, 2);
-    assert_true(gain_of_tail(s)->ramp[0].angle > 10);
-    assert_near(scale[1], 1.2 * gain_of_tail(s)->ramp[0].angle, 1e-9);
-    session_move(s, s->x + 60, s->y + 50);
-    session_click_here(s, 2); // a point between
-    panel_pull(s, "gain.point.2", 0, -80, 2);
-    assert_int_equal(gain_of_tail(s)->count, 3);
-    const double last = gain_of_tail(s)->ramp[2].angle;
-    assert_near(scale[1], 1.2 * last, 1e-9);
-    session_key(s, KEY_DELETE, 0); // the highest
-    assert_int_equal(gain_of_tail(s)->count, 2);
-    assert_true(highest(gain_of_tail(s)) < last);
-    assert_near(scale[1], 1.2 * highest(gain_of_tail(s)), 1e-9);
-}
-
-SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR))
-{
-    panel_enter(s, "chain.turn", "30");
-    const char *before = session_saved(s);
-    assert_null(missing(s->editor, NEEDS_TWIN));
-    panel_click(s, "chain.twin");
-    assert_int_equal(s->document->rig_count, 3);
-    const struct rig *twin = s->document->rigs[2];
-    assert_string_equal(twin->name, "ear_R");
-    assert_string_equal(twin->chain.from, "ear_R_1");
-    assert_string_equal(twin->chain.to, "ear_R_2");
-    assert_true(twin->chain.mirror);
-    assert_near(twin->chain.turn, -30, 0); // turned the other way round, as in a mirror
-    assert_int_equal(twin->chain.channels[0].spline, s->document->rigs[1]->chain.channels[0].spline);
-    assert_false(panel_shows(s, "chain.twin")); // there is one now
-    assert_non_null(missing(s->editor, NEEDS_TWIN));
-    assert_one_step(s, before);
-}
-
-/// Sections come below, without scrolling.
-SESSION_TEST(test_a_clicked_chain_leaves_its_feel_in_sight, open_beast(s, LEFT_EAR))
-{
-    editor_resize(s->editor, 1280, 720, 1);
-    show_more(s->editor, false);
-    session_frame(s);
-    session_click(s, "bone(ear_L_2)");
-    session_frame(s);
-    assert_string_equal(selected_bone(s->editor), "ear_L_2");
-    assert_near(sections(s->editor)->offset, 0, 0);
-}
-
-SESSION_TEST(test_a_tail_has_no_twin, open_beast(s, TAIL))
-{
-    assert_true(panel_shows(s, "rig.delete"));
-    assert_false(panel_shows(s, "chain.twin"));
-    assert_non_null(missing(s->editor, NEEDS_TWIN));
-}
-
-TESTS_BETWEEN(folder_make, folder_remove)
 
 /// Its tail and ears are met at three quarters from behind, whichever way it faces; what has no tail and stands upright, from the front.
-SESSION_TEST(test_a_beast_is_met_from_behind, open_beast(s, ""))
+BEAST_TEST(test_a_beast_is_met_from_behind, "")
 {
     const float *eye = editor_stage(s->editor)->eye, *target = camera_of(s->editor)->target;
     assert_true(eye[2] < target[2] - 0.5f * (eye[0] - target[0]) && eye[0] > target[0]); // it faces +z
@@ -394,4 +129,471 @@ SESSION_TEST(test_a_beast_is_met_from_behind, open_beast(s, ""))
     beast.gltf.hi[0] = beast.gltf.lo[0] + 2 * (beast.gltf.hi[2] - beast.gltf.lo[2]);
     assert_false(imported_back(&beast, back));
     imported_free(&beast);
+}
+
+// --- chains -------------------------------------------------------------------------------------------------------------
+
+/// A key makes one to the tip in one step; a bone that branches is refused with a sentence.
+BEAST_TEST(test_a_chain_is_made, "")
+{
+    walk(s, "key J; unchanged; on bone(tail_3); key J; is rigs.# 2; is rigs.1.type chain; is rigs.1.from tail_3;"
+            "is rigs.1.to tail_8; is rigs.1.channels.# >0; is rig 1");
+    assert_int_equal(active(s->editor), s->document->rigs[1]->chain.channels[0].spline);
+    walk(s, "step; key Ctrl+Z; is bone tail_3; click bone.chain; is rigs.# 2; key Ctrl+Z; unchanged;"
+            "on bone(head); is bone head; key J; unchanged;"
+            "errs \"head\" branches into \"ear_L_1\" and \"ear_R_1\"");
+}
+
+BEAST_TEST(test_undoing_a_chain_activates_what_was_active, TAIL)
+{
+    walk(s, "key PageUp; is active 1; on bone(ear_L_1); key J; on bone(leg_FL_1); key J; is active 4;"
+            "key Ctrl+Z; is active 2; is rig 2; key Ctrl+Z; is active 1; is rig 1");
+}
+
+/// How far a point of the tail is from the pointer.
+static float apart(const struct session *s, const char *target)
+{
+    float at[2];
+    session_where(s, target, at);
+    return hypotf(at[0] - s->x, at[1] - s->y);
+}
+
+/// The grabbed point follows the pointer, by a knot at the playhead; one step, and Esc takes it back. A click selects its bone.
+BEAST_TEST(test_dragging_a_chain_sets_a_knot, TAIL)
+{
+    walk(s, "hold chain(tail,0.95) 0 -30 12; frames 60; release; is splines.0.knots.# 1");
+    assert_true(apart(s, "chain(tail,0.95)") < 30); // one axis only: as near as it gets
+    walk(s, "step; key Ctrl+Z; hold chain(tail,0.8) 25 0 6; key Escape; unchanged; release;"
+            "on bone(tail_4); is bone tail_4; unchanged");
+}
+
+/// With an axis each way the point comes to the pointer itself.
+BEAST_TEST(test_a_chain_of_two_axes_comes_to_the_pointer, TAIL)
+{
+    walk(s, "on chain(tail,0.5); click splines.add; click channel.add; click axis.up; is rigs.1.channels.1.axis up;"
+            "hold chain(tail,0.9) 12 18 12; frames 60; release");
+    assert_true(apart(s, "chain(tail,0.9)") < 1.5f);
+}
+
+/// Already while a chain is pulled the curves show its knot, though a small gain needs large values.
+BEAST_TEST(test_the_curves_show_a_knot_that_was_pulled, TAIL_UP)
+{
+    walk(s, "enter gain 0.1; hold chain(tail,0.95) 0 -40 12");
+    for (int held = 1; held >= 0; held--) {
+        walk(s, "frames 90; is splines.0.knots.# 1");
+        const float y = curves_y(s->editor->curves, &s->editor->core, s->document->splines[0]->knots[0].value);
+        const struct rect plot = layout_of(s->editor)->plot;
+        assert_true(y >= plot.y && y <= plot.y + plot.h);
+        if (held) walk(s, "release");
+    }
+}
+
+// --- the inspector on characters and chains -------------------------------------------------------------------------------
+
+BEAST_TEST(test_the_inspector_chooses_the_clip, "")
+{
+    walk(s, "click model.clips.0; click item.Nod; is rigs.0.clip Nod;"
+            "click model.loops; is rigs.0.repeat once; click model.loops; is rigs.0.repeat loop;"
+            "key Ctrl+Z Ctrl+Z; step;"
+            "click model.clips.0; click item.none; is rigs.0.clip nothing; unchanged;"
+            "enter model.scale 2; enter model.turn 90; enter model.x 0.5; is rigs.0.scale 2; is rigs.0.turn 90;"
+            "is rigs.0.position.0 0.5");
+}
+
+/// Each move of a drag makes its edit anew, of the chain as it was at the press. Its spline stays when the chain goes.
+BEAST_TEST(test_a_chain_is_edited_in_the_inspector, TAIL)
+{
+    walk(s, "pull chain.turn 40 0 6; is rigs.1.turn >0; is rigs.1.from tail_1; step; key Ctrl+Z;"
+            "click axis.twist; is rigs.1.channels.0.axis twist; click chain.mirror; is rigs.1.mirror true;"
+            "enter chain.turn 30; is rigs.1.turn 30; enter gain 11; is rigs.1.channels.0.gain 11;"
+            "click tail.name; key Ctrl+A; type brush; key Enter; is rigs.1.name brush;"
+            "click rig.delete; key K; is rigs.# 1; is splines.# 2; key Ctrl+Z*6; unchanged");
+}
+
+/// A chain that follows bends by many degrees a metre: its slider goes that far, and stays as it is while it is dragged.
+BEAST_TEST(test_a_large_gain_is_on_its_slider, TAIL_UP)
+{
+    walk(s, "enter gain 86; slide gain 120; is rigs.1.channels.0.gain 120±2; release;"
+            "slide gain 30; is rigs.1.channels.0.gain 30±2; release");
+}
+
+/// Its points are dragged, set beside the line by a double-click, and deleted down to two; lit, the button goes back to one angle.
+BEAST_TEST(test_a_gain_becomes_a_ramp_whose_points_move, TAIL)
+{
+    const char *before = s->mark;
+    walk(s, "click gain.ramp; is rigs.1.channels.0.gain.ramp.# 2; is rigs.1.channels.0.gain.ramp.1.1 8; mark;"
+            "pull gain.point.1 -40 -12; is rigs.1.channels.0.gain.ramp.1.1 >8;"
+            "is rigs.1.channels.0.gain.ramp.1.0 <1; step;"
+            "press gain.point.0; by 60 -8 1; release");
+    session_move(s, s->x + 8, s->y + 16);
+    session_click_here(s, 2);
+    walk(s, "is rigs.1.channels.0.gain.ramp.# 3;"
+            "press gain.point.1; release; key Delete; is rigs.1.channels.0.gain.ramp.# 2;"
+            "key Delete; is rigs.1.channels.0.gain.ramp.# 2;"
+            "click gain.ramp; is rigs.1.channels.0.gain >0");
+    s->mark = before;
+    walk(s, "undone");
+}
+
+BEAST_TEST(test_a_ramps_plot_is_as_high_as_its_points, TAIL)
+{
+    const double *scale = s->editor->inspector->ramp_scale[ANGLE_GAIN];
+    walk(s, "click gain.ramp; pull gain.point.0 0 -30 2; is rigs.1.channels.0.gain.ramp.0.1 >10");
+    assert_near(scale[1], 1.2 * number(s, "rigs.1.channels.0.gain.ramp.0.1"), 1e-9);
+    session_move(s, s->x + 60, s->y + 50);
+    session_click_here(s, 2); // a point between
+    walk(s, "pull gain.point.2 0 -80 2; is rigs.1.channels.0.gain.ramp.# 3");
+    const double last = number(s, "rigs.1.channels.0.gain.ramp.2.1");
+    assert_near(scale[1], 1.2 * last, 1e-9);
+    walk(s, "key Delete; is rigs.1.channels.0.gain.ramp.# 2"); // the highest
+    const double ends[] = {number(s, "rigs.1.channels.0.gain.ramp.0.1"),
+                           number(s, "rigs.1.channels.0.gain.ramp.1.1")};
+    assert_true(fmax(ends[0], ends[1]) < last);
+    assert_near(scale[1], 1.2 * fmax(ends[0], ends[1]), 1e-9);
+}
+
+/// Turned the other way round, as in a mirror. What has one already gets none, nor has a tail one.
+BEAST_TEST(test_a_chain_gets_a_twin_on_the_other_side, LEFT_EAR)
+{
+    walk(s, "enter chain.turn 30; mark");
+    assert_null(missing(s->editor, NEEDS_TWIN));
+    walk(s, "click chain.twin; is rigs.# 3; is rigs.2.name ear_R; is rigs.2.from ear_R_1; is rigs.2.to ear_R_2;"
+            "is rigs.2.mirror true; is rigs.2.turn -30; is rigs.2.channels.0.spline flick; lacks chain.twin");
+    assert_non_null(missing(s->editor, NEEDS_TWIN));
+    walk(s, "step");
+    session_close(s);
+    open_beast(s, "0", TAIL);
+    walk(s, "shows rig.delete; lacks chain.twin");
+    assert_non_null(missing(s->editor, NEEDS_TWIN));
+}
+
+/// Sections come below, without scrolling.
+BEAST_TEST(test_a_clicked_chain_leaves_its_feel_in_sight, LEFT_EAR)
+{
+    editor_resize(s->editor, 1280, 720, 1);
+    walk(s, "more off; on bone(ear_L_2); frames; is bone ear_L_2; is scrolled 0");
+}
+
+// --- bones that are chosen for something ------------------------------------------------------------------------------------
+
+#define FOLLOWS "{'model': 'beast', 'joint': 'head', 'of': 'turn', 'gain': 2}"
+#define FOLLOWS_TIP "{'model': 'beast', 'joint': 'tail_8', 'of': 'up', 'chain': 'tail'}"
+
+/// From a list or on the stage: what is chosen is in the scene, by one step; or nothing is changed, and said to be wrong.
+TEST(test_bones_are_chosen)
+{
+    static const struct {
+        const char *equilibrium, *steps;
+    } rows[] = {
+        // from the start it follows the tip of its chain, as the swing only: a metre is more of the tip than 1 of what knots directed
+        {"0", "click follow.equilibrium; click item.A joint of beast; step; is splines.0.equilibrium.joint tail_8;"
+              "is splines.0.equilibrium.of up; is splines.0.equilibrium.gain >1; is splines.0.equilibrium.chain tail;"
+              "has 'axis': 'up', 'of': 'displacement'; click follow.equilibrium; is splines.0.equilibrium 0±0.01"},
+        {FOLLOWS, "click joint.0; click item.neck; step; has 'joint': 'neck', 'of': 'turn', 'gain': 2"},
+        {FOLLOWS, "click joint.of.across; step; has 'joint': 'head', 'of': 'across', 'gain': 2"},
+        {FOLLOWS, "enter joint.gain -3; step; has 'joint': 'head', 'of': 'turn', 'gain': -3"},
+        {FOLLOWS, "tab joint.0; key Enter; type fr_2; shows item.leg_FR_2; lacks item.leg_FL_2; key Backspace;"
+                  "shows item.leg_FR_1; key Down Enter; step; is splines.0.equilibrium.joint leg_FR_2"},
+        {FOLLOWS, "click joint.pick; key Escape; on bone(leg_FL_2); unchanged"}, // only selected the bone
+        {FOLLOWS, "click joint.pick; carry bone(tail_4) 30 20; unchanged"},      // also over a chain
+        {FOLLOWS, "click joint.pick; carry bone(tail_4) 30 20; on bone(neck); step; has 'joint': 'neck'"},
+        {FOLLOWS, "click joint.pick; on bone(neck); on bone(spine); step; has 'joint': 'neck'"}, // one was asked for
+        // the end of a chain is below its first bone, and what follows its tip still does
+        {FOLLOWS_TIP, "click chain.to.1; lacks item.neck; click item.tail_6; step; is rigs.1.to tail_6;"
+                      "is splines.0.equilibrium.joint tail_6"},
+        {FOLLOWS_TIP, "click chain.from.1; type tail_2; key Enter; step; is rigs.1.from tail_2; is rigs.1.to tail_8"},
+        {"0", "click chain.from.pick; on bone(ear_L_1); step; is rigs.1.from ear_L_1; is rigs.1.to ear_L_2"},
+        {"0", "click chain.to.pick; on bone(neck); unchanged; errs expected \"neck\" below \"tail_1\""},
+        {"0", "click chain.from.pick; on bone(head); unchanged; errs \"head\" branches into"},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        struct session s;
+        open_beast(&s, rows[r].equilibrium, TAIL_UP);
+        walk(&s, "%s", rows[r].steps);
+        session_close(&s);
+    }
+}
+
+static int lines_on_stage(const struct session *s)
+{
+    const struct drawlist *list = drawn_by(s->editor);
+    const struct rect stage = layout_of(s->editor)->stage;
+    int count = 0;
+    for (int i = 0; i < list->count; i++) {
+        const struct rect *r = &list->commands[i].bounds;
+        count += list->commands[i].kind != DRAW_TEXT && r->w < stage.w / 2 && rect_contains(stage, r->x, r->y);
+    }
+    return count;
+}
+
+SESSION_TEST(test_all_bones_are_shown_to_choose_from, open_beast(s, FOLLOWS, TAIL_UP))
+{
+    const int without = lines_on_stage(s);
+    walk(s, "click joint.pick; at 2 2");
+    assert_true(lines_on_stage(s) > without + 8);
+}
+
+/// Two beasts side by side: a bone goes by its character's name, and can be asked for by it.
+TEST(test_a_second_character_is_named)
+{
+    struct session s;
+    char text[2048];
+    int model;
+    assert_true(beast_write(folder_path("beast.glb")));
+    snprintf(
+        text, sizeof text,
+        "{'fps': 24, 'frames': [0, 48], 'splines': [], 'rigs': [{'type': 'model', 'name': 'left', 'model': '%s', "
+        "'position': [-1, 0, 0]}, {'type': 'model', 'name': 'right', 'model': '%s', 'position': [1, 0, 0]}]}",
+        folder_path("beast.glb"), folder_path("beast.glb"));
+    panel_open_models(&s, quoted(text));
+    walk(&s, "frames");
+    for (int rig = 0; rig < 2; rig++) {
+        const char *side = rig ? "right" : "left";
+        walk(&s, "over bone(%s/neck); reads %s/neck; on bone(%s/neck)", side, side, side);
+        assert_true(bones_selected(&s.editor->core, &model) >= 0);
+        assert_int_equal(model, rig);
+    }
+    walk(&s,
+         "on bone(right/tail_3); key J; says from right/tail_3 to tail_8; on bone(neck)"); // the first that there is
+    assert_true(bones_selected(&s.editor->core, &model) >= 0);
+    assert_int_equal(model, 0);
+    session_close(&s);
+}
+
+// --- a stranger's rig: controls, poles and leaves between the bones that vertices follow ------------------------------------------
+
+/// The joints of the rig, parents first. A triangle follows each that has a `size`; two skins share them all.
+static const struct joint {
+    const char *name;
+    int parent;
+    float at[3], size; ///< from the parent; of the triangle
+} joints[] = {
+    {"root", -1, {0, 0, 0}, 0},             // 0: a control on the ground
+    {"hips", 0, {0, 1, 0}, 0.3f},           // 1
+    {"chest", 1, {0, 0.4f, 0}, 0.3f},       // 2
+    {"head", 2, {0, 0.3f, 0}, 0.2f},        // 3
+    {"ear_L_1", 3, {0.3f, 0.1f, 0}, 0.1f},  // 4
+    {"ear_L_2", 4, {0.2f, 0.1f, 0}, 0.1f},  // 5
+    {"ear_L_end", 5, {0.2f, 0.1f, 0}, 0},   // 6: a leaf
+    {"ear_R_1", 3, {-0.3f, 0.1f, 0}, 0.1f}, // 7
+    {"leg", 1, {0, -0.5f, 0}, 0.2f},        // 8
+    {"foot", 8, {0, -0.45f, 0.1f}, 0.1f},   // 9
+    {"knee_pole", 0, {0, 0.5f, 1}, 0},      // 10
+    {"foot_ik", 0, {0.4f, 0.02f, 0.5f}, 0}, // 11
+    {"spline_ik", 11, {0, 0, -0.2f}, 0},    // 12
+};
+
+enum { JOINTS = sizeof joints / sizeof *joints };
+
+static const float triangle[3][3] = {{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+static void write_rig(struct builder *b)
+{
+    float inverse[JOINTS][16] = {{0}}, place[JOINTS][3] = {{0}}, position[3 * JOINTS][3],
+          weight[3 * JOINTS][4] = {{0}};
+    unsigned char follows[3 * JOINTS][4] = {{0}};
+    char nodes[4096] = "", list[256] = "", members[8192];
+    int vertices = 0;
+    for (int j = 0; j < JOINTS; j++) {
+        const struct joint *joint = &joints[j];
+        char children[128] = "";
+        for (int k = 0; k < 3; k++) place[j][k] = joint->at[k] + (j > 0 ? place[joint->parent][k] : 0);
+        for (int k = 0; k < 16; k++) inverse[j][k] = k % 5 == 0;
+        for (int k = 0; k < 3; k++) inverse[j][12 + k] = -place[j][k];
+        for (int i = 0; joint->size > 0 && i < 3; i++, vertices++) {
+            for (int k = 0; k < 3; k++) position[vertices][k] = place[j][k] + joint->size * triangle[i][k];
+            follows[vertices][0] = (unsigned char)j;
+            weight[vertices][0] = 1;
+        }
+        for (int c = 0; c < JOINTS; c++) {
+            char *end = children + strlen(children);
+            if (c > 0 && joints[c].parent == j) sprintf(end, children[0] ? ",%d" : ",\"children\":[%d", c);
+        }
+        if (strcmp(joint->name, "ear_L_1") == 0) sprintf(children + strlen(children), ",%d", JOINTS); // a ring in it
+        sprintf(nodes + strlen(nodes), "{\"name\":\"%s\",\"translation\":[%g,%g,%g]%s%s},", joint->name,
+                (double)joint->at[0], (double)joint->at[1], (double)joint->at[2], children, children[0] ? "]" : "");
+        sprintf(list + strlen(list), j ? ",%d" : "%d", j);
+    }
+    add_data(b, FLOAT, "VEC3", vertices, position, sizeof *position * (size_t)vertices);
+    add_data(b, UBYTE, "VEC4", vertices, follows, sizeof *follows * (size_t)vertices);
+    add_data(b, FLOAT, "VEC4", vertices, weight, sizeof *weight * (size_t)vertices);
+    add_data(b, FLOAT, "MAT4", JOINTS, inverse, sizeof inverse);
+    snprintf(
+        members, sizeof members,
+        "\"scenes\":[{\"nodes\":[0,%d,%d]}],\"nodes\":[%s{\"name\":\"ring\",\"mesh\":1},{\"mesh\":0,\"skin\":0},"
+        "{\"mesh\":0,\"skin\":1}],\"skins\":[{\"joints\":[%s],\"inverseBindMatrices\":3},{\"joints\":[%s],"
+        "\"inverseBindMatrices\":3}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,"
+        "\"WEIGHTS_0\":2}}]},{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]",
+        JOINTS + 1, JOINTS + 2, nodes, list, list);
+    const char *json = builder_json(b, members);
+    temporary_file("model.gltf", json, strlen(json));
+}
+
+enum { MORPHS = 8 };
+
+/// A triangle that eight targets move 4 m along x, each a frame of its run.
+static void write_runner(struct builder *b)
+{
+    float moved[3][3] = {{0}}, times[MORPHS], weights[MORPHS][MORPHS] = {{0}};
+    char targets[256] = "";
+    for (int t = 0; t < MORPHS; t++) {
+        times[t] = 0.1f * (float)t;
+        weights[t][t] = 1;
+        sprintf(targets + strlen(targets), t ? ",{\"POSITION\":1}" : "{\"POSITION\":1}");
+    }
+    for (int i = 0; i < 3; i++) moved[i][0] = i < 2 ? 0.5f : -0.5f;
+    add_data(b, FLOAT, "VEC3", 3, triangle, sizeof triangle);
+    add_data(b, FLOAT, "VEC3", 3, moved, sizeof moved);
+    add_data(b, FLOAT, "SCALAR", MORPHS, times, sizeof times);
+    add_data(b, FLOAT, "SCALAR", MORPHS * MORPHS, weights, sizeof weights);
+    char members[2048];
+    snprintf(
+        members, sizeof members,
+        "\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":\"stable\",\"children\":[1]},{\"mesh\":0}],\"meshes\":"
+        "[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[%s]}]}],\"animations\":[{\"name\":\"run\","
+        "\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"weights\"}}],\"samplers\":[{\"input\":2,"
+        "\"output\":3}]}]",
+        targets);
+    const char *json = builder_json(b, members);
+    temporary_file("model.gltf", json, strlen(json));
+}
+
+static void open_written(struct session *s, void (*write)(struct builder *b))
+{
+    static struct builder builder;
+    char text[1024];
+    builder = (struct builder){0};
+    write(&builder);
+    snprintf(text, sizeof text,
+             "{'fps': 24, 'frames': [0, 24], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'knots': "
+             "[]}], 'rigs': [{'type': 'model', 'name': 'it', 'model': '%s'}]}",
+             temporary_path("model.gltf"));
+    panel_open_models(s, quoted(text));
+    s->editor->core.view.refit_stage = true;
+    walk(s, "at 2 2");
+}
+
+static bool shows(const struct session *s, const char *bone)
+{
+    char target[64];
+    float xy[2];
+    struct error error;
+    snprintf(target, sizeof target, "bone(%s)", bone);
+    return editor_target(s->editor, target, &xy[0], &xy[1], &error);
+}
+
+/// On the screen, a place on the way from one joint to another.
+static void between(const struct session *s, const char *from, const char *to, float share, float xy[2])
+{
+    const struct stage *stage = s->editor->stage;
+    const struct stage_model *model = &stage->view.models[0];
+    const float *a = model->pose->world[gltf_find_node(model->gltf, from)] + 12;
+    const float *b = model->pose->world[gltf_find_node(model->gltf, to)] + 12;
+    float at[3];
+    for (int k = 0; k < 3; k++) at[k] = model->root[12 + k] + a[k] + (b[k] - a[k]) * share;
+    const struct rect r = layout_of(s->editor)->stage;
+    assert_true(camera_project(stage->view.view, stage->view.projection, (float[]){r.x, r.y, r.w, r.h}, at, xy));
+}
+
+static void move_between(struct session *s, const char *from, const char *to, float share)
+{
+    float xy[2];
+    between(s, from, to, share, xy);
+    session_move(s, xy[0], xy[1]);
+    session_frame(s);
+}
+
+#define RIG_TEST(name) SESSION_TEST(name, open_written(s, write_rig))
+
+/// Joints count once, and cast shadows if vertices follow them. Bones that carry nothing show with Alt.
+RIG_TEST(test_bones_that_carry_nothing_show_with_alt)
+{
+    static const char *const bones[] = {"root", "hips",      "head",    "ear_L_1",   "ear_L_2",
+                                        "foot", "knee_pole", "foot_ik", "spline_ik", "ear_L_end"};
+    assert_int_equal(s->editor->stage->view.blob_count, 2); // the whole, and the foot
+    assert_int_equal(bones_character(&s->editor->core, 0)->skeleton.own, JOINTS);
+    for (int alt = 0; alt < 2; alt++) {
+        s->mods = alt ? MOD_ALT : 0;
+        move_between(s, "root", "foot_ik", 1);
+        for (int i = 0; i < 10; i++)
+            if (shows(s, bones[i]) != (i < 6 || alt)) fail_msg("%s, Alt %d", bones[i], alt);
+        session_click_here(s, 1);
+        walk(s, "is bone %s", alt ? "foot_ik" : "");
+    }
+}
+
+/// All along the link from a branching bone; the bone itself goes on as the one before it.
+RIG_TEST(test_a_press_takes_the_bone_whose_part_is_drawn_there)
+{
+    static const struct {
+        const char *from, *to;
+        float share;
+        const char *bone;
+    } presses[] = {
+        {"head", "ear_L_1", 0.6f, "ear_L_1"},    {"head", "ear_R_1", 0.6f, "ear_R_1"},
+        {"chest", "head", 0.5f, "chest"},        {"chest", "head", 1.2f, "head"},
+        {"hips", "chest", 0.5f, "hips"},         {"hips", "leg", 0.5f, "leg"},
+        {"ear_L_1", "ear_L_2", 0.5f, "ear_L_1"}, {"root", "hips", 0.25f, "root"},
+    };
+    for (size_t i = 0; i < sizeof presses / sizeof *presses; i++) {
+        move_between(s, presses[i].from, presses[i].to, presses[i].share);
+        session_click_here(s, 1);
+        walk(s, "is bone %s", presses[i].bone);
+    }
+}
+
+/// Neither the ring in the ear nor its leaf is a branch, or part of the chain.
+RIG_TEST(test_hover_names_the_chain_that_the_key_makes)
+{
+    walk(s, "over bone(ear_L_1); reads ear_L_1 to ear_L_2, 2 bones; over bone(head); reads head;"
+            "on bone(ear_L_1); key J; is rigs.1.from ear_L_1; is rigs.1.to ear_L_2");
+}
+
+static float size_of_ear(const struct session *s)
+{
+    float a[2], b[2];
+    between(s, "ear_L_1", "ear_L_2", 0, a);
+    between(s, "ear_L_1", "ear_L_2", 1, b);
+    return hypotf(a[0] - b[0], a[1] - b[1]);
+}
+
+RIG_TEST(test_f_frames_the_selection_and_still_holds_frequency)
+{
+    walk(s, "on bone(ear_L_1)");
+    const float before = size_of_ear(s), height = layout_of(s->editor)->stage.h;
+    session_hold(s, 'F', ACTION_PRESS);
+    walk(s, "key Up");
+    session_hold(s, 'F', ACTION_RELEASE);
+    walk(s, "frames; is splines.0.frequency >1");
+    assert_near(size_of_ear(s), before, 1e-3);
+    walk(s, "key F");
+    const float framed = size_of_ear(s);
+    assert_true(framed > 0.3f * height);
+    session_move(s, 2, layout_of(s->editor)->plot.y + 20);
+    walk(s, "key Shift+Home F"); // not over the curves
+    assert_true(size_of_ear(s) < 0.5f * framed);
+}
+
+RIG_TEST(test_the_wheel_zooms_to_the_pointer)
+{
+    for (int i = 0; i < 2; i++) {
+        float xy[2];
+        const float before = size_of_ear(s);
+        move_between(s, "foot", "leg", 0);
+        session_wheel(s, i == 0 ? 8 : -5);
+        between(s, "foot", "leg", 0, xy);
+        assert_true(i == 0 ? size_of_ear(s) > 2 * before : size_of_ear(s) < 0.6f * before);
+        assert_true(hypotf(xy[0] - s->x, xy[1] - s->y) < 0.03f * layout_of(s->editor)->stage.h);
+    }
+}
+
+/// Its eight targets are never seen at once: it is at most 3 m wide.
+SESSION_TEST(test_a_model_of_morphs_fills_the_view, open_written(s, write_runner))
+{
+    const struct rect figure = stage_figure(s->editor->stage, &s->editor->core), stage = layout_of(s->editor)->stage;
+    const struct stage_model *model = &s->editor->stage->view.models[0];
+    assert_true(model->hi[0] - model->lo[0] < 3);
+    assert_true(figure.w > 0.5f * stage.w || figure.h > 0.5f * stage.h);
+    walk(s, "hides Click a bone, then press Shift+J to let it swing. F1 shows all keys;"
+            "reads It has no bones to bend. A adds a tail or a character, F1 shows all keys");
 }
