@@ -100,9 +100,11 @@ static bool find(struct session *s, const char *name, char text[512])
                    {"speed", playback_of(e)->speed},
                    {"stage.characters", editor_stage(e)->character_count},
                    {"stage.tails", e->stage->tail_count},
+                   {"tip.behind", posed(e)->matrix[24][12] - posed(e)->matrix[0][12]},
                    {"trail", is_on(e, SWITCH_TRAIL)},
                    {"typing", inspector_of(e)->typing != 0},
                    {"welcoming", is_welcoming(e)},
+                   {"wants.frames", editor_wants_frames(e)},
                    {"warnings", warnings_of(e)->count}};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         if (strcmp(name, texts[i].name) == 0) return snprintf(text, 512, "%s", texts[i].text) >= 0;
