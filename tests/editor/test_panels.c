@@ -164,20 +164,6 @@ TEST(test_no_text_leaves_its_panel_or_overlaps)
 
 // --- behaviour --------------------------------------------------------------------------------------------------------
 
-/// The figures at the right must not cost a redraw every frame.
-SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280, 720))
-{
-    double last = 0;
-    int changes = 0;
-    for (int frame = 0; frame < 120; frame++) {
-        tell_figures(s->editor, 50 + frame % 7, 200 + frame);
-        editor_advance(s->editor, 1.0 / 60);
-        changes += s->editor->core.status.shown.solve_us != last;
-        last = s->editor->core.status.shown.solve_us;
-    }
-    assert_in_range(changes, 3, 5);
-}
-
 // --- upright windows --------------------------------------------------------------------------------------------------
 
 SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_open(s, small_scene, 1280, 720))
