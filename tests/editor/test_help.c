@@ -1,21 +1,27 @@
-/// The table of commands: what it says is true, F1 shows all of it, and docs/keys.md names the same keys.
+/// The table of commands: what it says is true, F1 and the palette show all of it, docs/keys.md names the same keys, each has one on every
+/// keyboard, and nothing needs a mouse.
 #include "editor/state.h"
-#include "panel_session.h"
-#include "shown.h"
+#include "walks.h"
+#include "ui/theme.h"
 
 static const char scene[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
-    "[{\"frame\": 0, \"value\": 0, \"slope\": 1}, {\"frame\": 36, \"value\": 1}]}],"
-    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}]}";
+    "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'knots': [{'frame': 0, 'value': 0, 'slope': "
+    "1}, "
+    "{'frame': 36, 'value': 1}]}], 'rigs': [{'type': 'tail', 'name': 'tail', 'spline': 'sway'}]}";
+
+// --- F1 -----------------------------------------------------------------------------------------------------------------
 
 static void open_help(struct session *s, float width, float height)
 {
-    panel_open(s, scene, width, height);
-    session_key(s, KEY_F1, 0);
-    assert_true(looked_up(s->editor) == LOOKUP_KEYS);
+    panel_open(s, quoted(scene), width, height);
+    walk(s, "key F1; is lookup keys");
 }
 
-static bool is_seen(const struct draw_command *c) { return c && c->y > c->clip.y && c->y < c->clip.y + c->clip.h; }
+static bool is_seen(const struct session *s, const char *text)
+{
+    const struct draw_command *c = shown_text(s->editor, text);
+    return c && c->y > c->clip.y && c->y < c->clip.y + c->clip.h;
+}
 
 /// A row that is added must be reached by scrolling in every usual window, and nothing of it may be cut.
 TEST(test_every_row_is_reached_whole)
@@ -28,10 +34,9 @@ TEST(test_every_row_is_reached_whole)
         for (int page = 0; page < 60; page++) {
             for (int c = 0; c < command_count; c++) {
                 char keys[COMMAND_KEYS];
-                if (!commands[c].name) continue;
+                if (!commands[c].name || seen[c]) continue;
                 command_keys(&commands[c], keys);
-                seen[c] |= is_seen(shown_text(s.editor, commands[c].name)) &&
-                           (!keys[0] || is_seen(shown_text(s.editor, keys)));
+                seen[c] = is_seen(&s, commands[c].name) && (!keys[0] || is_seen(&s, keys));
             }
             session_wheel(&s, -1);
         }
@@ -47,64 +52,38 @@ TEST(test_every_row_is_reached_whole)
 
 SESSION_TEST(test_small_windows_scroll, open_help(s, 500, 360))
 {
-    assert_true(is_seen(shown_text(s->editor, "Drag the body")));
-    assert_false(is_seen(shown_text(s->editor, "Ctrl+9")));
-    session_wheel(s, -1000);
-    assert_true(is_seen(shown_text(s->editor, "Ctrl+9")));
-    assert_false(is_seen(shown_text(s->editor, "Drag the body")));
-    for (int i = 0; i < 40; i++) session_key(s, KEY_PAGE_UP, 0);
-    assert_true(is_seen(shown_text(s->editor, "Drag the body")));
-}
-
-SESSION_TEST(test_esc_enter_f1_and_a_click_close_the_help, panel_open(s, scene, 1280, 720))
-{
-    static const int closing[] = {KEY_ESCAPE, KEY_ENTER, KEY_F1};
-    for (size_t i = 0; i < sizeof closing / sizeof closing[0]; i++) {
-        session_key(s, KEY_F1, 0);
-        assert_true(looked_up(s->editor) == LOOKUP_KEYS);
-        session_key(s, closing[i], 0);
-        assert_false(looked_up(s->editor) == LOOKUP_KEYS);
+    for (int end = 0; end < 3; end++) {
+        if (end == 1) session_wheel(s, -1000);
+        if (end == 2) walk(s, "key PageUp*40");
+        assert_int_equal(is_seen(s, "Drag the body"), end != 1);
+        assert_int_equal(is_seen(s, "Ctrl+9"), end == 1);
     }
-    session_key(s, KEY_F1, 0);
-    session_move(s, 500, 500);
-    session_click_here(s, 1);
-    assert_false(looked_up(s->editor) == LOOKUP_KEYS);
 }
 
 /// As a finger does; it stays open, and no row is clicked.
 SESSION_TEST(test_a_drag_scrolls_the_lists, open_help(s, 390, 792))
 {
-    static const float from[] = {200, 300};
-    session_move(s, from[0], from[1]);
+    const float *offset = &lookup_of(s->editor)->list.offset;
+    walk(s, "at 200 300");
     session_press(s, BUTTON_LEFT, 1);
-    session_drag(s, 0, -160, 8);
-    session_release(s, BUTTON_LEFT);
-    assert_near(lookup_of(s->editor)->list.offset, 160, 1);
-    session_key(s, KEY_F3, 0);
-    session_move(s, from[0], from[1]);
+    walk(s, "by 0 -160 8; release");
+    assert_near(*offset, 160, 1);
+    walk(s, "key F3; at 200 300");
     session_press(s, BUTTON_LEFT, 1);
-    session_drag(s, 0, -160, 8);
-    assert_near(lookup_of(s->editor)->list.offset, 10, 0);
-    session_drag(s, 0, 80, 8);
-    session_release(s, BUTTON_LEFT);
-    assert_near(lookup_of(s->editor)->list.offset, 5, 0);
-    assert_true(looked_up(s->editor) == LOOKUP_PALETTE);
+    walk(s, "by 0 -160 8");
+    assert_near(*offset, 10, 0);
+    walk(s, "by 0 80 8; release; is lookup palette");
+    assert_near(*offset, 5, 0);
     session_move(s, 5, 5);
     session_click_here(s, 1);
-    assert_false(looked_up(s->editor) == LOOKUP_PALETTE);
+    walk(s, "is lookup none");
 }
 
-SESSION_TEST(test_typing_searches_the_help, panel_open(s, scene, 1280, 720))
-{
-    session_key(s, KEY_F1, 0);
-    panel_type(s, "V onion");
-    assert_null(shown_text(s->editor, "Onion skin"));
-    for (int i = 0; i < 7; i++) session_key(s, KEY_BACKSPACE, 0);
-    panel_type(s, "onion");
-    assert_true(is_seen(shown_text(s->editor, "Onion skin")));
-    assert_null(shown_text(s->editor, "Double-click"));
-    assert_int_equal(look(s->editor), LOOK_WIGGLY);
-}
+/// Esc, Enter, F1 and a click close the help. What is typed searches it.
+WALK(test_the_help_is_searched_and_closed, scene, 1280, 720,
+     "key F1; is lookup keys; key Escape; is lookup none; key F1; is lookup keys; key Enter; is lookup none;"
+     "key F1; is lookup keys; key F1; is lookup none; key F1; is lookup keys; on stage(0.4,0.9); is lookup none;"
+     "key F1; type V onion; hides Onion skin; key Backspace*7; type onion; reads Onion skin; is look wiggly")
 
 /// F1 begins with ten rows about what the pointer is over.
 TEST(test_ten_keys_about_what_is_under_the_pointer)
@@ -112,34 +91,24 @@ TEST(test_ten_keys_about_what_is_under_the_pointer)
     static const struct {
         const char *target, *title, *row;
         unsigned at;
-    } cases[] = {{"knot(sway,1)", "Over a knot", "Slope on or off", ON_KNOT},
-                 {"curve(sway,20,0)", "Over the curves", "Fix the first warning", ON_CURVES},
-                 {"ruler(20)", "Over the ruler and the status line", "Scrub", ON_TIME},
-                 {"stage(0.05,0.1)", "Over the stage", "Onion skin", ON_STAGE},
-                 {"widget(section.feel)", "In the inspector", "Type a number", ON_INSPECTOR}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    } rows[] = {{"knot(sway,1)", "Over a knot", "Slope on or off", ON_KNOT},
+                {"curve(sway,20,0)", "Over the curves", "Fix the first warning", ON_CURVES},
+                {"ruler(20)", "Over the ruler and the status line", "Scrub", ON_TIME},
+                {"stage(0.05,0.1)", "Over the stage", "Onion skin", ON_STAGE},
+                {"widget(section.feel)", "In the inspector", "Type a number", ON_INSPECTOR}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct session s;
         int count = 0;
-        panel_open(&s, scene, 1280, 720);
-        session_hover(&s, cases[i].target);
-        session_key(&s, KEY_F1, 0);
-        assert_non_null(shown_text(s.editor, cases[i].title));
-        assert_true(is_seen(shown_text(s.editor, cases[i].row)));
+        panel_open(&s, quoted(scene), 1280, 720);
+        walk(&s, "over %s; key F1; reads %s", rows[i].target, rows[i].title);
+        assert_true(is_seen(&s, rows[i].row));
         session_close(&s);
-        for (int c = 0; c < command_count; c++) count += (commands[c].at & cases[i].at) != 0;
-        assert_int_equal(count, 10);
+        for (int c = 0; c < command_count; c++) count += (commands[c].at & rows[i].at) != 0;
+        if (count != 10) fail_msg("%s: %d rows", rows[i].title, count);
     }
 }
 
 // --- the palette ----------------------------------------------------------------------------------------------------------
-
-/// Opens it and types.
-static void search(struct session *s, const char *text)
-{
-    session_key(s, KEY_F3, 0);
-    assert_true(looked_up(s->editor) == LOOKUP_PALETTE);
-    panel_type(s, text);
-}
 
 TEST(test_the_palette_runs_what_is_found)
 {
@@ -147,51 +116,46 @@ TEST(test_the_palette_runs_what_is_found)
         const char *typed;
         int key; ///< what does the same
         unsigned mods;
-    } cases[] = {{"select all knots of", 'A', MOD_CTRL},
-                 {"ONION", 'O', 0},
-                 {"ghst", KEY_F4, 0},
-                 {"ctrl+l", 'L', MOD_CTRL},
-                 {"scr", KEY_F12, 0},
-                 {"seconds", 'U', 0},
-                 {"knot insert play", 'I', 0}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    } rows[] = {{"select all knots of", 'A', MOD_CTRL},
+                {"ONION", 'O', 0},
+                {"ghst", KEY_F4, 0},
+                {"ctrl+l", 'L', MOD_CTRL},
+                {"scr", KEY_F12, 0},
+                {"seconds", 'U', 0},
+                {"knot insert play", 'I', 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct session s;
-        const struct command *expected = keys_command(cases[i].key, cases[i].mods);
-        session_open(&s, scene);
-        search(&s, cases[i].typed);
-        if (!shown_text(s.editor, expected->name)) fail_msg("%s: not found by %s", expected->name, cases[i].typed);
-        session_key(&s, KEY_ENTER, 0);
-        assert_false(looked_up(s.editor) == LOOKUP_PALETTE);
+        session_open(&s, quoted(scene));
+        walk(&s, "key F3; is lookup palette; type %s; reads %s; key Enter; is lookup none", rows[i].typed,
+             keys_command(rows[i].key, rows[i].mods)->name);
         session_close(&s);
     }
 }
 
-SESSION_TEST(test_the_palette_does_what_the_key_does, session_open(s, scene))
+/// What cannot be done now says why, and Enter leaves the palette open; Esc closes it and changes nothing. It does what the key does,
+/// chooses a feel, and flips switches that have no key.
+SESSION_TEST(test_the_palette_does_what_the_key_does, session_open(s, quoted(scene)))
 {
-    search(s, "select all knots of");
-    session_key(s, KEY_ENTER, 0);
-    assert_int_equal(selection_count(selection_of(s->editor), s->document->splines[0]), 2);
-    search(s, "delete sel");
-    session_key(s, KEY_ENTER, 0);
-    assert_int_equal(s->document->splines[0]->knot_count, 0);
-    search(s, "add a spl");
-    session_key(s, KEY_ENTER, 0);
-    assert_int_equal(s->document->spline_count, 2);
-}
-
-/// What cannot be done now says why, and Enter leaves the palette open; Esc closes it and changes nothing.
-SESSION_TEST(test_the_palette_says_what_is_missing, session_open(s, scene))
-{
-    const char *before = session_saved(s);
-    search(s, "flat slope");
-    session_frame(s);
-    assert_non_null(shown_text(s->editor, "Select a knot first."));
-    session_key(s, KEY_ENTER, 0);
-    assert_true(looked_up(s->editor) == LOOKUP_PALETTE);
-    session_key(s, KEY_DELETE, 0);
-    session_key(s, KEY_ESCAPE, 0);
-    assert_false(looked_up(s->editor) == LOOKUP_PALETTE);
-    assert_saved(s, before);
+    static const char *const feels[] = {"cat 0.8", "whip 1.8", "heavy 0.5", "jelly 3", "antenna 5"};
+    const struct core *core = &s->editor->core;
+    walk(s, "key F3; type flat slope; frames; reads Select a knot first.; key Enter; is lookup palette;"
+            "key Delete Escape; is lookup none; unchanged");
+    for (int i = 0; i < 5; i++) {
+        const int length = (int)strcspn(feels[i], " ");
+        walk(s, "key F3; type feel %.*s; key Enter; is splines.0.frequency %s", length, feels[i],
+             feels[i] + length + 1);
+    }
+    for (int on = 1; on >= 0; on--) {
+        walk(s,
+             "key F3; type solo; key Enter F3; type hide the spl; key Enter F3; type record the next; key Enter;"
+             "is record %d",
+             on);
+        assert_int_equal(selection_has(&core->view.solo, s->document->splines[0]->id), on);
+        assert_int_equal(selection_has(&core->view.hidden, s->document->splines[0]->id), on);
+    }
+    walk(s, "key F3; type select all knots of; key Enter; is selected 2;"
+            "key F3; type delete sel; key Enter; is splines.0.knots.# 0;"
+            "key F3; type add a spl; key Enter; is splines.# 2");
 }
 
 /// What needs no key is there too: buttons and sections of the inspector.
@@ -199,90 +163,47 @@ TEST(test_the_palette_reaches_the_inspector)
 {
     static const struct {
         const char *typed, *shows; ///< and the widget that is to be seen then
-    } cases[] = {{"history", "section.history"},  {"limits", "section.limits"},   {"bandwidth", "section.advanced"},
-                 {"frame rate", "section.scene"}, {"copy the r", "section.tail"}, {"channels", "section.tail"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    } rows[] = {{"history", "section.history"},  {"limits", "section.limits"},   {"bandwidth", "section.advanced"},
+                {"frame rate", "section.scene"}, {"copy the r", "section.tail"}, {"channels", "section.tail"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct session s;
-        panel_open(&s, scene, 1280, 1400);
-        show_more(s.editor, false);
-        assert_false(panel_shows(&s, cases[i].shows));
-        search(&s, cases[i].typed);
-        session_key(&s, KEY_ENTER, 0);
-        if (!panel_shows(&s, cases[i].shows)) fail_msg("%s does not show %s", cases[i].typed, cases[i].shows);
+        panel_open(&s, quoted(scene), 1280, 1400);
+        walk(&s, "more off; lacks %s; key F3; type %s; key Enter; shows %s", rows[i].shows, rows[i].typed,
+             rows[i].shows);
         session_close(&s);
     }
 }
 
-SESSION_TEST(test_the_palette_chooses_a_feel, session_open(s, scene))
+/// Arrows, pages and the wheel go through all rows, round the ends; a click runs one.
+SESSION_TEST(test_the_palette_is_walked, session_open(s, quoted(scene)))
 {
-    static const struct {
-        const char *typed;
-        double frequency;
-    } cases[] = {{"cat", 0.8}, {"whip", 1.8}, {"heavy", 0.5}, {"jelly", 3}, {"antenna", 5}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        char typed[32];
-        snprintf(typed, sizeof typed, "feel %s", cases[i].typed);
-        search(s, typed);
-        session_key(s, KEY_ENTER, 0);
-        assert_near(s->document->splines[0]->parameter[PARAMETER_FREQUENCY].value, cases[i].frequency, 0);
-    }
+    walk(s, "key F3 Up");
+    const int last = lookup_of(s->editor)->choice;
+    assert_true(last > 80);
+    walk(s, "key Down");
+    assert_int_equal(lookup_of(s->editor)->choice, 0);
+    walk(s, "key PageDown*20");
+    assert_int_equal(lookup_of(s->editor)->choice, last);
+    walk(s, "wheel 1000; type onion; tap Onion skin; is onion 1");
 }
 
-/// Switches that have no key.
-SESSION_TEST(test_the_palette_flips_switches, session_open(s, scene))
-{
-    const struct core *core = &s->editor->core;
-    for (int on = 1; on >= 0; on--) {
-        static const char *const typed[] = {"solo", "hide the spl", "record the next"};
-        for (size_t i = 0; i < sizeof typed / sizeof typed[0]; i++) {
-            search(s, typed[i]);
-            session_key(s, KEY_ENTER, 0);
-        }
-        assert_int_equal(selection_has(&core->view.solo, s->document->splines[0]->id), on);
-        assert_int_equal(selection_has(&core->view.hidden, s->document->splines[0]->id), on);
-        assert_int_equal(core->view.on[SWITCH_RECORD], on);
-    }
-}
+// --- the table ----------------------------------------------------------------------------------------------------------
 
 /// Whatever can be done now is done without harm, in an empty scene and in one with everything selected.
 TEST(test_every_command_runs)
 {
-    static const char empty[] = "{\"wiggly\": 1, \"frames\": [0, 96]}";
-    for (int c = 0; c < command_count; c++) {
-        for (int rich = 0; rich < 2; rich++) {
-            struct session s;
-            session_open(&s, rich ? scene : empty);
-            if (rich) session_key(&s, 'A', MOD_CTRL);
-            const bool can = command_runs(&commands[c]) && !missing(s.editor, commands[c].needs);
-            if (can) command_run(s.editor, &commands[c]);
-            session_frame(&s);
-            if (can && said_error(s.editor)) fail_msg("“%s”: %s", commands[c].name, said(s.editor));
-            session_close(&s);
-        }
+    for (int c = 0; c < 2 * command_count; c++) {
+        const struct command *command = &commands[c / 2];
+        struct session s;
+        session_open(&s, quoted(c % 2 ? scene : "{'frames': [0, 96]}"));
+        if (c % 2) session_key(&s, 'A', MOD_CTRL);
+        const bool can = command_runs(command) && !missing(s.editor, command->needs);
+        if (can) command_run(s.editor, command);
+        session_frame(&s);
+        if (can && said_error(s.editor)) fail_msg("“%s”: %s", command->name, said(s.editor));
+        session_close(&s);
     }
 }
-
-/// Arrows, pages and the wheel go through all rows, round the ends; a click runs one.
-SESSION_TEST(test_the_palette_is_walked, session_open(s, scene))
-{
-    search(s, "");
-    session_key(s, KEY_UP, 0);
-    const int last = lookup_of(s->editor)->choice;
-    assert_true(last > 80);
-    session_key(s, KEY_DOWN, 0);
-    assert_int_equal(lookup_of(s->editor)->choice, 0);
-    for (int i = 0; i < 20; i++) session_key(s, KEY_PAGE_DOWN, 0);
-    assert_int_equal(lookup_of(s->editor)->choice, last);
-    session_wheel(s, 1000);
-    panel_type(s, "onion");
-    const struct draw_command *row = shown_text(s->editor, "Onion skin");
-    assert_non_null(row);
-    session_move(s, row->x + 4, row->y - 4);
-    session_click_here(s, 1);
-    assert_true(is_on(s->editor, SWITCH_ONION));
-}
-
-// --- the table -------------------------------------------------------------------------------------------
 
 /// Rows under a heading stand together, and no two are called the same.
 TEST(test_the_table_is_in_order)
@@ -313,34 +234,40 @@ TEST(test_every_letter_to_hold_is_in_the_help)
     }
 }
 
-static const char *lacks(const struct session *s, int key, unsigned mods)
+/// Whether a command can be done now follows the scene and the selection.
+SESSION_TEST(test_what_can_be_done_now, session_open(s, quoted(scene)))
 {
-    return missing(s->editor, keys_command(key, mods)->needs);
+    static const struct {
+        const char *first; ///< what is done before
+        int key;
+        unsigned mods;
+        const char *lacks; ///< NULL: nothing
+    } rows[] = {
+        {"", 'Z', MOD_CTRL, "There is nothing to undo."},
+        {"", 'T', 0, "Select a knot first."},
+        {"", 'J', 0, "Click a bone of an imported character first."},
+        {"", 'B', MOD_SHIFT, "Select a soft character first."},
+        {"", KEY_PAGE_UP, MOD_ALT, "Select a pin first."},
+        {"", 'A', MOD_CTRL, NULL},
+        {"", 'S', MOD_CTRL, NULL},
+        {"key Ctrl+A", 'T', 0, NULL},
+        {"key Delete", 'Z', MOD_CTRL, NULL},
+        {"", 'A', MOD_CTRL, "Insert a knot first."},
+        {"", 'Y', MOD_CTRL, "There is nothing to redo."},
+        {"key Ctrl+Z", 'Y', MOD_CTRL, NULL},
+        {"", KEY_END, 0, "Select a knot first."},
+        {"", 'H', 0, NULL},
+        {"key Shift+Delete K", 'H', 0, "Add a tail, a chain or a soft character first."},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        walk(s, "%s", rows[i].first);
+        const char *lacks = missing(s->editor, keys_command(rows[i].key, rows[i].mods)->needs);
+        if (strcmp(lacks ? lacks : "", rows[i].lacks ? rows[i].lacks : "") != 0)
+            fail_msg("row %zu, key %s: %s", i, key_name(rows[i].key), lacks);
+    }
 }
 
-/// Whether a command can be done now follows the scene and the selection.
-SESSION_TEST(test_what_can_be_done_now, session_open(s, scene))
-{
-    assert_string_equal(lacks(s, 'Z', MOD_CTRL), "There is nothing to undo.");
-    assert_string_equal(lacks(s, 'T', 0), "Select a knot first.");
-    assert_string_equal(lacks(s, 'J', 0), "Click a bone of an imported character first.");
-    assert_string_equal(lacks(s, 'B', MOD_SHIFT), "Select a soft character first.");
-    assert_string_equal(lacks(s, KEY_PAGE_UP, MOD_ALT), "Select a pin first.");
-    assert_null(lacks(s, 'A', MOD_CTRL));
-    assert_null(lacks(s, 'S', MOD_CTRL));
-    session_key(s, 'A', MOD_CTRL);
-    assert_null(lacks(s, 'T', 0));
-    session_key(s, KEY_DELETE, 0);
-    assert_null(lacks(s, 'Z', MOD_CTRL));
-    assert_string_equal(lacks(s, 'A', MOD_CTRL), "Insert a knot first.");
-    assert_string_equal(lacks(s, 'Y', MOD_CTRL), "There is nothing to redo.");
-    session_key(s, 'Z', MOD_CTRL);
-    assert_null(lacks(s, 'Y', MOD_CTRL));
-    assert_string_equal(lacks(s, KEY_END, 0), "Select a knot first.");
-    assert_null(lacks(s, 'H', 0));
-    for (int i = s->document->rig_count; i > 0; i--) assert_done(edit_rig_remove(s->document, i - 1, &error));
-    assert_string_equal(lacks(s, 'H', 0), "Add a tail, a chain or a soft character first.");
-}
+// --- docs/keys.md against the keys ----------------------------------------------------------------------------------------
 
 enum { MAX_CHORDS = 256 };
 
@@ -441,7 +368,7 @@ static bool try_chord(int key, unsigned mods)
 {
     static struct session s;
     static bool is_open;
-    if (!is_open) session_open(&s, scene);
+    if (!is_open) session_open(&s, quoted(scene));
     const struct event press = {.kind = EVENT_KEY, .key = key, .mods = mods, .action = ACTION_PRESS};
     const struct event text = {.kind = EVENT_TEXT, .codepoint = (uint32_t)key};
     bool bound = keys_event(s.editor, &press) || (mods == 0 && keys_event(s.editor, &text));
@@ -455,19 +382,6 @@ static bool is_bound(int key, unsigned mods)
     static enum { UNKNOWN, BOUND, FREE } known[KEY_COUNT][8];
     if (known[key][mods] == UNKNOWN) known[key][mods] = try_chord(key, mods) ? BOUND : FREE;
     return known[key][mods] == BOUND;
-}
-
-static void assert_has_every_key(const struct chords *chords, const char *where)
-{
-    int bound = 0;
-    for (int key = KEY_SPACE; key < KEY_COUNT; key++) {
-        for (unsigned mods = 0; mods < 8; mods++) {
-            if (!is_bound(key, mods)) continue;
-            bound++;
-            if (!has(chords, key, mods)) fail_msg("%s lacks %s with modifiers %u", where, key_name(key), mods);
-        }
-    }
-    assert_true(bound > 80);
 }
 
 /// Keys that somebody else than keys.c answers: the inspector, a drag, a held letter.
@@ -491,47 +405,265 @@ static void assert_does_something(const char *keys)
     if (chords.count > 0 && !any) fail_msg("%s does nothing", keys);
 }
 
-// --- docs/keys.md against the keys ----------------------------------------------------------------------------------------
-
-/// The page names several keys in one cell as the help does, signs in backticks.
-static void page_cell(const char *line, char *cell, size_t size)
-{
-    size_t length = 0;
-    for (const char *c = line + 2; *c && strncmp(c, " |", 2) != 0 && length + 1 < size; c++) {
-        if (*c != '`') cell[length++] = *c;
-    }
-    cell[length] = '\0';
-}
-
-static bool next_page_row(FILE *page, char *cell, size_t size)
+/// The first cell of the next row; the page names several keys in one as the help does, signs in backticks.
+static bool next_page_row(FILE *page, char cell[256])
 {
     char line[1024];
     while (fgets(line, sizeof line, page)) {
+        size_t length = 0;
         if (strncmp(line, "| ", 2) != 0) continue;
-        page_cell(line, cell, size);
+        for (const char *c = line + 2; *c && strncmp(c, " |", 2) != 0 && length < 255; c++) {
+            if (*c != '`') cell[length++] = *c;
+        }
+        cell[length] = '\0';
         return true;
     }
     return false;
 }
 
-TEST(test_every_key_is_in_the_page_of_keys)
+TEST(test_the_page_of_keys_names_every_key_and_no_others)
 {
-    FILE *page = fopen("docs/keys.md", "r");
-    assert_non_null(page);
     struct chords chords = {.count = 0};
     char cell[256];
-    while (next_page_row(page, cell, sizeof cell)) read_row(cell, &chords);
-    fclose(page);
-    assert_has_every_key(&chords, "docs/keys.md");
-}
-
-TEST(test_the_page_of_keys_names_no_others)
-{
+    int rows = 0, bound = 0;
     FILE *page = fopen("docs/keys.md", "r");
     assert_non_null(page);
-    char cell[256];
-    int rows = 0;
-    for (; next_page_row(page, cell, sizeof cell); rows++) assert_does_something(cell);
+    for (; next_page_row(page, cell); rows++) {
+        assert_does_something(cell);
+        read_row(cell, &chords);
+    }
     fclose(page);
     assert_true(rows > 60);
+    for (int k = 8 * KEY_SPACE; k < 8 * KEY_COUNT; k++) {
+        const int key = k / 8;
+        const unsigned mods = (unsigned)k % 8;
+        if (!is_bound(key, mods)) continue;
+        bound++;
+        if (!has(&chords, key, mods)) fail_msg("docs/keys.md lacks %s with modifiers %u", key_name(key), mods);
+    }
+    assert_true(bound > 80);
+}
+
+// --- keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it ---------
+
+/// The punctuation of a layout as xkb-data 2.35 has it. Letters, digits by their places and keys with a name are on all of them.
+static const struct layout_of {
+    const char *name;
+    const char *printed; ///< on a key's lower left, but for the row of digits, which are bound by place
+    const char *typed;   ///< with Shift or without, not with AltGr
+} layouts[] = {
+    {"us", "-=[];'`\\,./<", "!@#$%^&*()-_=+[{]};:'\"`~\\|,<.>/?"},
+    {"fr", ")=$*,;:!<", "&\"'(-_)=+$%*,?;.:/!<>"},
+    {"be", ")-$,;:=<", "&\"'(!)-_$*%,?;.:/=+<>"},
+    {"de", "+#,.-<", "!\"$%&/()=?+*#',;.:-_<>"},
+    {"ch", "'$,.-<", "+\"*%&/()='?!$,;.:-_<>"},
+    {"no", "+\\|',.-<", "!\"#%&/()=+?\\|'*,;.:-_<>"},
+    {"se", "+',.-<", "!\"#%&/()=+?'*,;.:-_<>"},
+    {"dk", "+',.-<", "!\"#%&/()=+?'*,;.:-_<>"},
+    {"ru", "-=\\./", "!\";%:?*()-_=+\\/.,|"},
+};
+
+static bool is_punctuation(int key) { return key < KEY_ESCAPE && key != KEY_SPACE && !isalnum(key); }
+
+/// Whether a command can be reached: one of its keys is on the layout.
+static bool is_reached(const struct command *command, const struct layout_of *layout)
+{
+    for (const struct chord *c = command->chords; c->key; c++) {
+        const char *keys = c->mods & CHORD_TYPED ? layout->typed : layout->printed;
+        if (!is_punctuation(c->key) || strchr(keys, c->key)) return true;
+    }
+    return command->chords[0].key == 0;
+}
+
+TEST(test_every_layout_has_a_key_for_every_command)
+{
+    for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
+        for (int c = 0; c < command_count; c++) {
+            if (!is_reached(&commands[c], &layouts[i]))
+                fail_msg("%s has no key for “%s”", layouts[i].name, commands[c].name);
+        }
+    }
+}
+
+TEST(test_no_key_is_bound_twice)
+{
+    for (int c = 0; c < command_count; c++) {
+        for (const struct chord *chord = commands[c].chords; chord->key; chord++) {
+            if (keys_command(chord->key, chord->mods) != &commands[c])
+                fail_msg("%s with modifiers %u is bound twice", key_name(chord->key), chord->mods);
+            assert_true(!is_punctuation(chord->key) ||
+                        chord->mods); // it would act once more when its character comes
+        }
+    }
+}
+
+static const char three_knots[] =
+    "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 0.5, 'damping': 0.01, 'knots': [{'frame': 0, "
+    "'value': 0}, {'frame': 36, 'value': 1}, {'frame': 60, 'value': 0}]}], 'rigs': [{'type': 'tail', 'name': 'tail', "
+    "'spline': 'sway'}]}";
+
+/// AZERTY has - on the key of the 6, and needs Shift for 1, 5 and the point.
+SESSION_TEST(test_a_factor_is_what_is_typed, session_open(s, quoted(three_knots)))
+{
+    static const int struck[][2] = {{'6', '-'}, {'1', '1'}, {';', '.'}, {'7', '7'}, {KEY_BACKSPACE, 0}, {'5', '5'}};
+    walk(s, "key Ctrl+A");
+    session_type(s, "sy");
+    for (int i = 0; i < 6; i++) {
+        if (!struck[i][1]) session_key(s, struck[i][0], 0);
+        if (struck[i][1]) session_strike(s, struck[i][0], i == 0 ? 0 : MOD_SHIFT, (uint32_t)struck[i][1]);
+    }
+    walk(s, "key Enter; is splines.0.knots.0.value 1.25±1e-9; is splines.0.knots.1.value -0.25±1e-9");
+}
+
+/// AltGr, AZERTY and QWERTZ. A part is played without brackets, too. A key kept down is one press where it should be.
+SESSION_TEST(test_punctuation_is_what_is_typed, session_open(s, quoted(three_knots)))
+{
+    session_strike(s, '6', 0, '-'); // AZERTY
+    walk(s, "is speed 0.5");
+    session_strike(s, '0', MOD_SHIFT, '='); // QWERTZ
+    walk(s, "is speed 1");
+    session_strike(s, '8', 0, '[');         // with AltGr
+    session_strike(s, ';', MOD_SHIFT, '.'); // AZERTY
+    walk(s, "is selected 1");
+    session_strike(s, '<', MOD_SHIFT, '>');
+    walk(s, "is selected 2; seek 20; key Ctrl+Home; seek 50; key Ctrl+End");
+    assert_true(plays_part(s->editor));
+    assert_near(playback_of(s->editor)->range[0], 20, 0);
+    assert_near(playback_of(s->editor)->range[1], 50, 0);
+    session_hold(s, '6', ACTION_PRESS);
+    for (int i = 0; i < 3; i++) {
+        session_send(s, (struct event){.kind = EVENT_TEXT, .codepoint = '-'});
+        session_frame(s);
+        session_hold(s, '6', ACTION_REPEAT);
+    }
+    walk(s, "is speed 0.5");
+}
+
+TEST(test_a_key_kept_down_goes_on_through_the_splines)
+{
+    for (int down = 0; down < 2; down++) {
+        struct session s;
+        session_open(&s, quoted("{'frames': [0, 96], 'splines': [{'name': 'a', 'knots': []}, {'name': 'b', 'knots': "
+                                "[]}, {'name': 'c', 'knots': []}]}"));
+        for (int i = 1; i <= 3; i++) {
+            session_hold(&s, down ? KEY_PAGE_DOWN : KEY_PAGE_UP, i > 1 ? ACTION_REPEAT : ACTION_PRESS);
+            session_frame(&s);
+            walk(&s, "is active %d", down ? i % 3 : 3 - i);
+        }
+        session_close(&s);
+    }
+}
+
+SESSION_TEST(test_a_key_that_opens_something_types_nothing, session_open(s, quoted(three_knots)))
+{
+    session_type(s, "a"); // the menu of what can be added
+    assert_int_equal(inspector_of(s->editor)->popup.filter.typed[0], '\0');
+    session_type(s, "tai");
+    walk(s, "key Enter; is rigs.# 2; is rigs.1.type tail");
+}
+
+// --- nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too ------------------------
+
+/// Neighbours by > and <; there is nothing before the first.
+SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, quoted(three_knots)))
+{
+    static const struct {
+        const char *typed, *selected; ///< a letter a knot
+    } rows[] = {{">", "-x-"}, {"<", "xx-"}, {">", "xxx"}, {"<<<", "xxx"}};
+    walk(s, "key Shift+Left"); // to the first frame
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        session_type(s, rows[i].typed);
+        for (int k = 0; k < 3; k++) {
+            const bool is = selection_has(selection_of(s->editor), s->document->splines[0]->knots[k].id);
+            if (is != (rows[i].selected[k] == 'x')) fail_msg("row %zu, %s: knot %d", i, rows[i].typed, k);
+        }
+    }
+}
+
+SESSION_TEST(test_curves_camera_and_panels, session_open(s, quoted(three_knots)))
+{
+    const struct layout *layout = layout_of(s->editor), first = *layout;
+    const struct camera before = *camera_of(s->editor);
+    walk(s, "keep plot.left; keep plot.right; keep plot.bottom; keep plot.top;"
+            "key Ctrl+Right Ctrl+Up; is plot.left >kept; is plot.bottom >kept;"
+            "key Ctrl+Left Ctrl+Down; is plot.left kept±1e-3; is plot.top kept±1e-3");
+    const double width = number(s, "plot.right") - number(s, "plot.left");
+    walk(s, "key Ctrl+=");
+    assert_near(number(s, "plot.right") - number(s, "plot.left"), 0.8 * width, 1e-3);
+    walk(s,
+         "key Ctrl+-; is plot.right kept±1e-3;"
+         "keep camera.azimuth; keep camera.elevation; keep camera.distance;"
+         "key Ctrl+Shift+Right Ctrl+Shift+Up Ctrl+Shift+PageUp; is camera.azimuth >kept; is camera.elevation >kept;"
+         "is camera.distance <kept; key Shift+Home");
+    assert_memory_equal(&before, camera_of(s->editor), sizeof before);
+    walk(s, "key F6 Shift+F6");
+    assert_true(layout->stage_share > first.stage_share && layout->inspector_width > first.inspector_width);
+    walk(s, "key F6 Shift+F6");
+    assert_true(layout->stage_share < first.stage_share);
+    assert_true(layout->inspector_width < 480 && layout->inspector_width > first.inspector_width);
+}
+
+/// A jump within two frames.
+WALK(test_a_warning_is_done_away_with,
+     "{'frames': [0, 72], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.05, 'bandwidth': 0.05, 'knots': "
+     "[{'frame': 10, 'value': 0}, {'frame': 12, 'value': 1}, {'frame': 24, 'value': 1}]}]}",
+     1280, 720, "is warnings 1; key W; frames; is warnings 0; key Ctrl+Z; is warnings 1")
+
+/// Whether a line of the accent's colour, as the focus is drawn, lies around a widget or the part of it that is set.
+static bool is_ringed(const struct session *s, struct rect r)
+{
+    const struct drawlist *list = drawn_by(s->editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        const struct rect both = rect_intersect(c->bounds, r);
+        const bool around = both.w * both.h > 0.6f * fminf(r.w * r.h, c->bounds.w * c->bounds.h);
+        const bool near = c->bounds.h < r.h + 20; // a handle has a ring of 18 pixels
+        if (c->kind == DRAW_LINE && c->color == theme()->accent && around && near) return true;
+    }
+    return false;
+}
+
+static void assert_ringed(const struct session *s, const struct ui *ui)
+{
+    int i = 0;
+    while (i < ui->stop_count && ui->stop[i].id != ui->focus) i++;
+    if (i == ui->stop_count) fail_msg("what has the focus is not shown");
+    const struct rect r = ui->stop[i].rect;
+    if (!is_ringed(s, r))
+        fail_msg("what is at %g, %g and %g × %g has no ring", (double)r.x, (double)r.y, (double)r.w, (double)r.h);
+}
+
+/// Goes round with Tab, and sees the focus wherever it is: each stop once, and after the last comes the first.
+static void assert_goes_round(struct session *s)
+{
+    const struct ui *ui = inspector_of(s->editor);
+    int count = 0;
+    panel_unfold(s);
+    const int stops = ui->stop_count;
+    assert_true(stops > 60 && stops < UI_MAX_FOCUS);
+    walk(s, "key Tab");
+    const uint32_t first = ui->focus;
+    do {
+        assert_ringed(s, ui);
+        walk(s, "key Tab");
+    } while (++count < UI_MAX_FOCUS && ui->focus != first);
+    assert_int_equal(count, stops);
+}
+
+/// A knot is selected, so that its fields are there. The start scene has a spline with the name of a button: up. A tail and a character
+/// have each their own switches for onion skin, motion arc and ghost.
+TEST(test_tab_goes_round)
+{
+    static const char both[] =
+        "{'frames': [0, 48], 'splines': [{'name': 'down', 'knots': [{'frame': 9, 'value': 1}]}], 'rigs': [{'type': "
+        "'tail', 'name': 'tail', 'spline': 'down'}, {'type': 'character', 'model': 'none.glb', 'coordinates': "
+        "[{'name': 'a', 'spline': 'down'}]}]}";
+    for (int i = 0; i < 3; i++) {
+        struct session s;
+        if (i == 0) session_open_file(&s, "assets/scenes/tail.json");
+        if (i > 0) session_open(&s, quoted(i == 1 ? both : three_knots));
+        if (i == 2) walk(&s, "on knot(sway,1)");
+        assert_goes_round(&s);
+        session_close(&s);
+    }
 }
