@@ -52,12 +52,13 @@ static bool find(struct session *s, const char *name, char text[512])
                  {"asked", dialogs[asked(e)]},
                  {"bone", selected_bone(e)},
                  {"cursor", cursors[editor_cursor(e)]},
-                 {"dragged", dragged(e) ? dragged(e) : "nothing"},
                  {"export.ending", export_formats[e->dialogs->exporting.format].ending},
                  {"export.path", e->dialogs->exporting.memory.path},
                  {"field", inspector_of(e)->text.bytes},
                  {"hint", inspector_of(e)->hint ? inspector_of(e)->hint : "nothing"},
-                 {"hovered", hovered(e) ? hovered(e)->name : "nothing"},
+                 {"hovered", !hovered(e)        ? "nothing"
+                             : hovered(e)->name ? hovered(e)->name
+                                                : "a thing"},
                  {"look", looks[look(e)]},
                  {"lookup", lookups[looked_up(e)]},
                  {"refused", asked_error(e)},
