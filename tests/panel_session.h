@@ -60,16 +60,6 @@ static inline uint32_t panel_id(struct session *session, const char *name)
     return panel_shows(session, name) ? inspector_of(session->editor)->found : 0;
 }
 
-/// Goes on with Tab until the widget has the focus.
-static inline void panel_tab_to(struct session *session, const char *name)
-{
-    struct ui *ui = inspector_of(session->editor);
-    for (int i = 0; i < UI_MAX_FOCUS && (!ui->focus || ui->focus != panel_id(session, name)); i++)
-        session_key(session, KEY_TAB, 0);
-    assert_int_not_equal(ui->focus, 0);
-    assert_int_equal(ui->focus, panel_id(session, name));
-}
-
 /// Presses a widget of the inspector and keeps the button down.
 static inline void panel_press(struct session *session, const char *name, int clicks)
 {

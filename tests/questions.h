@@ -74,7 +74,6 @@ static inline void list_files(struct editor *e, const struct editor_app *app)
 }
 /// F1's list or the palette.
 static inline struct lookup *lookup_of(const struct editor *e) { return &e->dialogs->lookup; }
-static inline enum lookup_kind looked_up(const struct editor *e) { return lookup_of(e)->kind; }
 
 // --- what keys act on ---
 
@@ -109,23 +108,11 @@ static inline const struct evaluation *solved(const struct editor *e) { return e
 
 // --- curves and stage ---
 
-/// The selected bone's name; "": none.
-static inline const char *selected_bone(const struct editor *e)
-{
-    int model;
-    const int node = bones_selected(&e->core, &model);
-    return node < 0 ? "" : bones_character(&e->core, model)->gltf.nodes[node].name;
-}
-
 static inline struct plotted *plot_of(const struct editor *e) { return &e->curves->view; }
 /// A frame's place in the plot.
 static inline float x_of(const struct editor *e, double frame) { return curves_x(e->curves, &e->core, frame); }
 static inline const struct warnings *warnings_of(const struct editor *e) { return &e->curves->warnings; }
 static inline struct selection *hidden_of(struct editor *e) { return &e->core.view.hidden; }
-static inline bool curves_show_spline(const struct editor *e, int spline)
-{
-    return spline_list_shows(&e->core, spline);
-}
 static inline struct camera *camera_of(const struct editor *e) { return &e->stage->camera; }
 /// The first strand's.
 static inline const struct pose *posed(const struct editor *e) { return &e->stage->strands[0].pose; }
@@ -135,8 +122,6 @@ static inline const struct pose *posed(const struct editor *e) { return &e->stag
 static inline struct ui *inspector_of(const struct editor *e) { return &e->inspector->ui; }
 static inline struct ui_list *sections(const struct editor *e) { return &e->inspector->sections; }
 static inline void unfold(struct editor *e, const char *section) { inspector_unfold(e->inspector, section); }
-static inline int shown_rig(const struct editor *e) { return e->inspector->rig; }
-static inline int shown_channel(const struct editor *e) { return e->inspector->channel; }
 static inline void show_more(struct editor *e, bool more) { e->core.view.on[SWITCH_MORE] = more; }
 static inline bool widget_at(const struct editor *e, const char *name, float *x, float *y)
 {

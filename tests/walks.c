@@ -45,12 +45,13 @@ static bool find(struct session *s, const char *name, char text[512])
 {
     struct editor *e = s->editor;
     const char *undo = history_undo_label(s->history);
-    const int at = active(e);
+    int model;
+    const int at = active(e), node = bones_selected(&e->core, &model);
     const struct {
         const char *name, *text;
     } texts[] = {{"active.name", at < 0 ? "none" : s->document->splines[at]->name},
                  {"asked", dialogs[asked(e)]},
-                 {"bone", selected_bone(e)},
+                 {"bone", node < 0 ? "" : bones_character(&e->core, model)->gltf.nodes[node].name},
                  {"cursor", cursors[editor_cursor(e)]},
                  {"export.ending", export_formats[e->dialogs->exporting.format].ending},
                  {"export.path", e->dialogs->exporting.memory.path},
@@ -60,7 +61,7 @@ static bool find(struct session *s, const char *name, char text[512])
                              : hovered(e)->name ? hovered(e)->name
                                                 : "a thing"},
                  {"look", looks[look(e)]},
-                 {"lookup", lookups[looked_up(e)]},
+                 {"lookup", lookups[lookup_of(e)->kind]},
                  {"refused", asked_error(e)},
                  {"said", said(e)},
                  {"typed", typed(e)},
@@ -75,7 +76,7 @@ static bool find(struct session *s, const char *name, char text[512])
                    {"camera.azimuth", camera_of(e)->azimuth},
                    {"camera.distance", camera_of(e)->distance},
                    {"camera.elevation", camera_of(e)->elevation},
-                   {"channel", shown_channel(e)},
+                   {"channel", e->inspector->channel},
                    {"choice", dialog_of(e)->choice},
                    {"curves.others", e->curves->cache.other_count},
                    {"export.keys", e->dialogs->exporting.memory.wish.keys},
@@ -94,7 +95,7 @@ static bool find(struct session *s, const char *name, char text[512])
                    {"position", playback_of(e)->position},
                    {"recent", dialog_of(e)->recent_count},
                    {"record", is_on(e, SWITCH_RECORD)},
-                   {"rig", shown_rig(e)},
+                   {"rig", e->inspector->rig},
                    {"scrolled", sections(e)->offset},
                    {"selected", selected(e)},
                    {"sliding", inspector_is_dragging(e->inspector)},
@@ -116,7 +117,8 @@ static bool find(struct session *s, const char *name, char text[512])
     float x, y;
     if (strncmp(name, "y:", 2) == 0)
         return widget_at(e, name + 2, &x, &y) && snprintf(text, 512, "%.9g", (double)y) > 0;
-    if (strncmp(name, "curve:", 6) == 0) return snprintf(text, 512, "%d", curves_show_spline(e, atoi(name + 6))) > 0;
+    if (strncmp(name, "curve:", 6) == 0)
+        return snprintf(text, 512, "%d", spline_list_shows(&e->core, atoi(name + 6))) > 0;
     return find_saved(s, name, text);
 }
 
@@ -275,7 +277,6 @@ static void key(struct session *s, const char *what)
 static void type(struct session *s, const char *what) { panel_type(s, what); }
 static void click(struct session *s, const char *what) { panel_click(s, what); }
 static void press(struct session *s, const char *what) { panel_press(s, what, 1); }
-static void tab(struct session *s, const char *what) { panel_tab_to(s, what); }
 static void on(struct session *s, const char *what) { session_click(s, what); }
 static void over(struct session *s, const char *what) { session_hover(s, what); }
 
@@ -284,6 +285,15 @@ static void wheel(struct session *s, const char *what)
 {
     const char *times = strchr(what, '*');
     for (int n = times ? atoi(times + 1) : 1; n > 0; n--) session_wheel(s, strtof(what, NULL));
+}
+
+/// Goes on with Tab until a widget has the focus.
+static void tab(struct session *s, const char *what)
+{
+    const struct ui *ui = inspector_of(s->editor);
+    for (int i = 0; i < UI_MAX_FOCUS && (!ui->focus || ui->focus != panel_id(s, what)); i++)
+        session_key(s, KEY_TAB, 0);
+    if (!ui->focus || ui->focus != panel_id(s, what)) fail_msg("“%s”: Tab does not reach it", step);
 }
 
 static void release(struct session *s, const char *what)

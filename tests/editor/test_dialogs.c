@@ -335,8 +335,7 @@ EXPORT_TEST(test_choices_of_formats)
     walk(s, "key Enter; tap Write walk.gif");
     const struct export_wish wish = exported(s).wish;
     assert_true(wish.width == 320 && wish.height == 360);
-    walk(s, "answer export");
-    walk(s, "key Ctrl+E");
+    walk(s, "answer export; key Ctrl+E");
     fill(s, "frames", 120, "5");
     walk(s, "key Escape; is asked export");
     assert_true(s->editor->dialogs->exporting.memory.wish.first == 0);
