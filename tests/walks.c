@@ -222,30 +222,9 @@ static void has(struct session *s, const char *what)
     if (!strstr(session_saved(s), quoted(what))) fail_msg("“%s”: the scene does not", step);
 }
 
-static void mark(struct session *s, const char *what)
+static void unchanged(struct session *s)
 {
-    (void)what;
-    s->mark = session_saved(s);
-}
-
-static void unchanged(struct session *s, const char *what)
-{
-    (void)what;
-    if (strcmp(session_saved(s), s->mark) != 0) fail_msg("“%s” in “%s”: the scene has changed", step, what);
-}
-
-/// All since the mark is one step of the history.
-static void one_step(struct session *s, const char *what)
-{
-    (void)what;
-    assert_one_step(s, s->mark);
-}
-
-/// Undoes all, which gives what there was at the mark.
-static void undone(struct session *s, const char *what)
-{
-    while (history_undo_label(s->history)) session_key(s, 'Z', MOD_CTRL);
-    unchanged(s, what);
+    if (strcmp(session_saved(s), s->mark) != 0) fail_msg("“%s”: the scene has changed", step);
 }
 
 // --- hands ------------------------------------------------------------------------------------------------------------------
@@ -294,12 +273,6 @@ static void tab(struct session *s, const char *what)
     for (int i = 0; i < UI_MAX_FOCUS && (!ui->focus || ui->focus != panel_id(s, what)); i++)
         session_key(s, KEY_TAB, 0);
     if (!ui->focus || ui->focus != panel_id(s, what)) fail_msg("“%s”: Tab does not reach it", step);
-}
-
-static void release(struct session *s, const char *what)
-{
-    (void)what;
-    session_release(s, BUTTON_LEFT);
 }
 
 static void twice(struct session *s, const char *what)
@@ -398,12 +371,6 @@ static void frames(struct session *s, const char *what)
 }
 
 static void seek_it(struct session *s, const char *what) { seek(s->editor, strtod(what, NULL)); }
-static void closes(struct session *s, const char *what)
-{
-    (void)what;
-    session_send(s, (struct event){.kind = EVENT_CLOSE});
-}
-
 static void more(struct session *s, const char *what)
 {
     show_more(s->editor, strcmp(what, "off") != 0);
@@ -455,28 +422,6 @@ static void answer(struct session *s, const char *what)
     panel_answer(s, kind, !*words, words);
 }
 
-/// The app has work of an earlier run.
-static void offer(struct session *s, const char *what)
-{
-    (void)what;
-    offer_recovery(s->editor, &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 1});
-    session_frame(s);
-}
-
-static void welcomes(struct session *s, const char *what)
-{
-    (void)what;
-    welcome(s->editor);
-    session_frame(s);
-}
-
-/// The app has opened a file.
-static void opened(struct session *s, const char *what)
-{
-    (void)what;
-    editor_open(s->editor, &s->world);
-}
-
 /// The app names the document's file.
 static void path(struct session *s, const char *what) { set_path(s->editor, what); }
 static void tell_it(struct session *s, const char *what) { tell(s->editor, false, "%s", what); }
@@ -484,24 +429,51 @@ static void tell_it(struct session *s, const char *what) { tell(s->editor, false
 static const struct {
     const char *word;
     void (*takes)(struct session *s, const char *what);
-} verbs[] = {{"answer", answer},     {"asks", asks},       {"at", at},         {"by", by},
-             {"carry", carry},       {"click", click},     {"close", closes},  {"keep", keep},
-             {"mentions", mentions}, {"ignores", ignores}, {"point", point},   {"seek", seek_it},
-             {"enter", enter},       {"errs", errs},       {"frames", frames}, {"has", has},
-             {"hides", hides},       {"hold", hold},       {"is", is},         {"key", key},
-             {"lacks", lacks},       {"mark", mark},       {"more", more},     {"on", on},
-             {"over", over},         {"path", path},       {"offer", offer},   {"opened", opened},
-             {"welcome", welcomes},  {"press", press},     {"pull", pull},     {"reads", reads},
-             {"release", release},   {"says", says},       {"shows", shows},   {"slide", slide},
-             {"step", one_step},     {"tab", tab},         {"tap", tap},       {"tap-twice", tap_twice},
-             {"tell", tell_it},      {"twice", twice},     {"type", type},     {"unchanged", unchanged},
-             {"undone", undone},     {"wheel", wheel}};
+} verbs[] = {{"answer", answer},       {"asks", asks},     {"at", at},        {"by", by},
+             {"carry", carry},         {"click", click},   {"keep", keep},    {"mentions", mentions},
+             {"ignores", ignores},     {"point", point},   {"seek", seek_it}, {"enter", enter},
+             {"errs", errs},           {"frames", frames}, {"has", has},      {"hides", hides},
+             {"hold", hold},           {"is", is},         {"key", key},      {"lacks", lacks},
+             {"more", more},           {"on", on},         {"over", over},    {"path", path},
+             {"press", press},         {"pull", pull},     {"reads", reads},  {"says", says},
+             {"shows", shows},         {"slide", slide},   {"tab", tab},      {"tap", tap},
+             {"tap-twice", tap_twice}, {"tell", tell_it},  {"twice", twice},  {"type", type},
+             {"wheel", wheel}};
+
+/// A sentence of one word; false: there is no such.
+static bool take_word(struct session *s, const char *word)
+{
+    static const struct recovery_offer unsaved = {"walk.json", "21 November 2026, 10:00:00", 1};
+    const bool undone = strcmp(word, "undone") == 0; // all of it, which gives what there was at the mark
+    while (undone && history_undo_label(s->history)) session_key(s, 'Z', MOD_CTRL);
+    if (undone || strcmp(word, "unchanged") == 0)
+        unchanged(s);
+    else if (strcmp(word, "step") == 0) // all since the mark is one
+        assert_one_step(s, s->mark);
+    else if (strcmp(word, "mark") == 0)
+        s->mark = session_saved(s);
+    else if (strcmp(word, "release") == 0)
+        session_release(s, BUTTON_LEFT);
+    else if (strcmp(word, "close") == 0)
+        session_send(s, (struct event){.kind = EVENT_CLOSE});
+    else if (strcmp(word, "opened") == 0) // by the app
+        editor_open(s->editor, &s->world);
+    else if (strcmp(word, "offer") == 0)
+        offer_recovery(s->editor, &unsaved);
+    else if (strcmp(word, "welcome") == 0)
+        welcome(s->editor);
+    else
+        return false;
+    if (strcmp(word, "offer") == 0 || strcmp(word, "welcome") == 0) session_frame(s);
+    return true;
+}
 
 static void take(struct session *s, char *sentence)
 {
     const size_t length = strcspn(sentence, " ");
     const bool alone = sentence[length] == '\0';
     step = sentence;
+    if (alone && take_word(s, sentence)) return;
     for (size_t i = 0; i < sizeof verbs / sizeof *verbs; i++) {
         if (strlen(verbs[i].word) != length || strncmp(verbs[i].word, sentence, length) != 0) continue;
         verbs[i].takes(s, sentence + length + !alone);

@@ -293,17 +293,10 @@ static bool has(const struct chords *chords, int key, unsigned mods)
 /// The key of that name, as the help writes it; 0 where it is none (but a mouse button, say).
 static int key_of(const char *name)
 {
-    static const struct {
-        const char *name;
-        int key;
-    } names[] = {{"Del", KEY_DELETE}, {"Esc", KEY_ESCAPE}, {"PgUp", KEY_PAGE_UP}, {"PgDn", KEY_PAGE_DOWN},
-                 {"Home", KEY_HOME},  {"End", KEY_END},    {"Enter", KEY_ENTER},  {"Space", KEY_SPACE},
-                 {"←", KEY_LEFT},     {"→", KEY_RIGHT},    {"Tab", KEY_TAB},      {"Backspace", KEY_BACKSPACE},
-                 {"↑", KEY_UP},       {"↓", KEY_DOWN}};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (strcmp(names[i].name, name) == 0) return names[i].key;
+    for (int key = KEY_SPACE; key < KEY_COUNT; key++) {
+        const char *own = command_key_name(key);
+        if (own && strcmp(own, name) == 0) return key;
     }
-    if (name[0] == 'F' && name[1] >= '0' && name[1] <= '9') return KEY_F1 + atoi(name + 1) - 1;
     return name[0] && !name[1] ? name[0] : 0;
 }
 
