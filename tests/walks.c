@@ -197,8 +197,8 @@ static const char *mentioned(struct session *s, const char *what)
 {
     const struct drawlist *list = drawn_by(s->editor);
     for (int i = 0; i < list->count; i++) {
-        const char *text = list->text + list->commands[i].first;
-        if (list->commands[i].kind == DRAW_TEXT && strstr(text, what)) return text;
+        const struct draw_command *c = &list->commands[i];
+        if (c->kind == DRAW_TEXT && strstr(list->text + c->first, what)) return list->text + c->first;
     }
     return NULL;
 }
@@ -249,7 +249,6 @@ static void key(struct session *s, const char *what)
         const int code = key_from_name(name);
         if (code == KEY_NONE) fail_msg("“%s”: there is no key %s", step, name);
         for (int n = times ? atoi(times) : 1; n > 0; n--) session_key(s, code, with);
-        if (!what[0]) break;
     }
 }
 
@@ -490,7 +489,10 @@ void walk(struct session *s, const char *steps, ...)
     const int size = vsnprintf(text, sizeof text, steps, arguments);
     va_end(arguments);
     assert_in_range(size, 0, sizeof text - 1);
-    if (!s->mark) s->mark = session_saved(s);
+    if (!s->mark) { // the first walk of this session
+        s->mark = session_saved(s);
+        memset(kept, 0, sizeof kept);
+    }
     while (*sentence) {
         const size_t length = strcspn(sentence, ";");
         const bool more_follow = sentence[length] == ';';
