@@ -57,9 +57,7 @@ static bool find(struct session *s, const char *name, char text[512])
                  {"export.path", e->dialogs->exporting.memory.path},
                  {"field", inspector_of(e)->text.bytes},
                  {"hint", inspector_of(e)->hint ? inspector_of(e)->hint : "nothing"},
-                 {"hovered", !hovered(e)        ? "nothing"
-                             : hovered(e)->name ? hovered(e)->name
-                                                : "a thing"},
+                 {"hovered", hovered(e) ? "a thing" : "nothing"},
                  {"look", looks[look(e)]},
                  {"lookup", lookups[lookup_of(e)->kind]},
                  {"refused", asked_error(e)},
