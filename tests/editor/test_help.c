@@ -1,8 +1,8 @@
 /// The table of commands: what it says is true, F1 and the palette show all of it, docs/keys.md names the same keys, each has one on every
 /// keyboard, and nothing needs a mouse.
 #include "editor/state.h"
-#include "walks.h"
 #include "ui/theme.h"
+#include "walks.h"
 
 static const char scene[] =
     "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'knots': [{'frame': 0, 'value': 0, 'slope': "

@@ -1,7 +1,7 @@
 /// The inspector: what each widget does to the document and what it says, by the events of mouse and keyboard.
 #include "folder.h"
-#include "walks.h"
 #include "puppet.h"
+#include "walks.h"
 
 /// A keyed spline, a cubic, and one whose frequency follows the cubic; a tail that two of them bend.
 static const char scene[] =

@@ -1,8 +1,8 @@
 /// Every screen in every size, at every scale, dark and light: all text is whole, apart from other text, in its panel, and can be read; and
 /// upright windows, where the panels lie below each other.
 #include "base/file.h"
-#include "walks.h"
 #include "legible.h"
+#include "walks.h"
 
 #define KNOTS                                                                                                        \
     "'knots': [{'frame': 0, 'value': 0}, {'frame': 30, 'value': 1, 'slope': 1}, {'frame': 70, 'value': -0.3}]"
