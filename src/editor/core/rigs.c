@@ -602,7 +602,6 @@ static void pins_select(struct core *core, unsigned id)
 
 void pins_visit(struct core *core, const struct pin *pin)
 {
-    core->view.playback.playing = false;
     playback_seek(core, pin->frame);
     pins_select(core, pin->id);
 }
@@ -651,7 +650,6 @@ void pins_put_here(struct core *core, int rig, int point, const double to[3])
     const double frame = pins_frame_here(core, rig);
     if (!core_step(core, "Pin", 0) || !pins_put(core, rig, point, frame, to)) return;
     core_message(core, false, "Pinned at frame %.6g. Drag the marker, or type its place in the section Pins.", frame);
-    core->view.playback.playing = false;
     playback_seek(core, frame);
 }
 

@@ -244,8 +244,11 @@ void playback_toggle(struct core *core, int unused)
     (void)unused;
     struct playback *playback = &core->view.playback;
     double range[2];
-    playback->playing = !playback->playing;
-    if (!playback->playing) return;
+    if (playback->playing) {
+        playback_seek(core, round(core_frame(core)));
+        return;
+    }
+    playback->playing = true;
     range_positions(core, range);
     playback->dropped = 0;
     bool at_end = !core->view.on[SWITCH_LOOP] && playback->position >= range[1];

@@ -24,6 +24,7 @@ bool presenter_event(struct core *core, const struct event *event);
 void presenter_advance(struct core *core, double dt, bool busy);
 bool presenter_is_sliding(const struct core *core);
 
+/// Plays, or stops at the nearest frame.
 void playback_toggle(struct core *core, int unused);
 /// Advances by `dt` seconds of real time. Counts scene frames that were skipped.
 void playback_advance(struct core *core, double dt);
