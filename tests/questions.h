@@ -108,12 +108,12 @@ static inline const struct evaluation *solved(const struct editor *e) { return e
 
 // --- curves and stage ---
 
-static inline struct plotted *plot_of(const struct editor *e) { return &e->curves->view; }
+static inline struct plotted *plot_of(struct editor *e) { return &e->core.view.plot; }
 /// A frame's place in the plot.
-static inline float x_of(const struct editor *e, double frame) { return curves_x(e->curves, &e->core, frame); }
+static inline float x_of(const struct editor *e, double frame) { return curves_x(&e->core, frame); }
 static inline const struct warnings *warnings_of(const struct editor *e) { return &e->curves->warnings; }
 static inline struct selection *hidden_of(struct editor *e) { return &e->core.view.hidden; }
-static inline struct camera *camera_of(const struct editor *e) { return &e->stage->camera; }
+static inline struct camera *camera_of(struct editor *e) { return &e->core.view.camera; }
 /// The first strand's.
 static inline const struct pose *posed(const struct editor *e) { return &e->stage->strands[0].pose; }
 

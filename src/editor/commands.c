@@ -110,12 +110,12 @@ static void run_zoom(struct editor *editor, int direction)
 
 static void run_orbit(struct editor *editor, int way)
 {
-    stage_orbit(editor->stage, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
+    camera_orbit(&editor->core.view.camera, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
 }
 
 static void run_approach(struct editor *editor, int direction)
 {
-    stage_approach(editor->stage, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
+    camera_zoom(&editor->core.view.camera, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
 }
 
 /// One frame or 1 % of the visible values; a pin, 1 % of the view. Shift: ten times, Ctrl: a tenth.

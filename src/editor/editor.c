@@ -34,7 +34,8 @@ struct editor *editor_create(const struct editor_app *app)
     editor->dialogs = dialogs_create(&editor->core, commands, command_count);
     editor->core.view.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
     editor->core.view.layout.inspector_width = THEME_INSPECTOR_WIDTH;
-    editor->core.view.visible = 2;
+    editor->core.view.plot = (struct plotted){0, 120, -1, 1};
+    editor->core.view.camera = camera_default();
     editor->core.focus.active = -1;
     editor->core.focus.brush = (struct brush){.radius = 0.12, .strength = 0.4};
 #define STARTS(name, starts, said_off, said_on) editor->core.view.on[SWITCH_##name] = starts;
@@ -446,7 +447,7 @@ static void pass_on(struct editor *editor, const struct event *event)
     case EVENT_WHEEL:
         if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);
         if (panel == PANEL_STATUS) status_event(editor, event);
-        if (panel == PANEL_STAGE) stage_wheel(editor->stage, &editor->core, event);
+        if (panel == PANEL_STAGE) stage_wheel(&editor->core, event);
         break;
     case EVENT_PASTE:
         core_paste_knots(&editor->core, event->text);

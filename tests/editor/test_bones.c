@@ -181,7 +181,7 @@ BEAST_TEST(test_the_curves_show_a_knot_that_was_pulled, TAIL_UP)
     walk(s, "enter gain 0.1; hold chain(tail,0.95) 0 -40 12");
     for (int held = 1; held >= 0; held--) {
         walk(s, "frames 90; is splines.0.knots.# 1");
-        const float y = curves_y(s->editor->curves, &s->editor->core, s->document->splines[0]->knots[0].value);
+        const float y = curves_y(&s->editor->core, s->document->splines[0]->knots[0].value);
         const struct rect plot = layout_of(s->editor)->plot;
         assert_true(y >= plot.y && y <= plot.y + plot.h);
         if (held) walk(s, "release");

@@ -291,8 +291,8 @@ SESSION_TEST(all_that_is_drawn_is_framed,
 static int find_bands(const struct session *s, double ends[4][2])
 {
     const struct core *core = &s->editor->core;
-    const float left = curves_x(s->editor->curves, core, 0);
-    const float frame = curves_x(s->editor->curves, core, 1) - left;
+    const float left = curves_x(core, 0);
+    const float frame = curves_x(core, 1) - left;
     const uint32_t rgb = spline_list_color(core->document, core->focus.active) >> 8;
     int count = 0;
     EACH_DRAWN(c, s->editor)
@@ -456,7 +456,7 @@ TEST(swings_finer_than_a_column_are_a_band)
     open_crowded(&s, 3200, 2, values, 4);
     const struct rect plot = layout_of(s.editor)->plot;
     for (double frames = 6400; frames > 3200; frames *= 0.97) {
-        s.editor->curves->view = (struct plotted){0, frames, -2, 2};
+        *plot_of(s.editor) = (struct plotted){0, frames, -2, 2};
         session_frame(&s);
         const struct draw_command *band = NULL;
         EACH_DRAWN(c, s.editor) if (c->kind == DRAW_BAND && c->width > 2.4f) band = c;
@@ -470,7 +470,7 @@ TEST(swings_finer_than_a_column_are_a_band)
             assert_near(xy[2 * c + 2] - xy[2 * c], apart, 1e-3);
         }
     }
-    s.editor->curves->view = (struct plotted){0, 240, -2, 2};
+    *plot_of(s.editor) = (struct plotted){0, 240, -2, 2};
     session_frame(&s);
     EACH_DRAWN(c, s.editor) assert_int_not_equal(c->kind, DRAW_BAND);
     session_close(&s);

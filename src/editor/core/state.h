@@ -4,6 +4,7 @@
 #define EDITOR_CORE_STATE_H
 
 #include "editor/core/app.h"
+#include "rig/camera.h"
 #include "rig/models.h"
 #include "rig/posing.h"
 #include "scene/edit.h"
@@ -311,6 +312,12 @@ struct input {
     struct hover hover;
 };
 
+/// Visible part of the curves panel.
+struct plotted {
+    double frame0, frame1; ///< at the plot's left and right edge
+    double value0, value1; ///< at its bottom and top edge
+};
+
 /// What is kept from frame to frame, and never saved with the scene.
 struct view {
     struct layout layout;
@@ -322,7 +329,8 @@ struct view {
     bool on[SWITCH_COUNT];
     struct selection hidden, solo; ///< sets of spline ids
     unsigned visibility;           ///< grows when these change
-    double visible;                ///< height of the visible values
+    struct plotted plot;           ///< of the curves
+    struct camera camera;          ///< of the stage
     bool plain;                    ///< the stage without text
     bool refit_stage;              ///< editor_pose() fits the camera: what an edit adds has no place before
     bool refit_curves;             ///< it shows all curves: they have no values before the solve

@@ -27,62 +27,61 @@ static double bounded(double pixels, double lo, double hi)
     return fmin(fmax(pixels, lo - FAR_PIXELS), hi + FAR_PIXELS);
 }
 
-double curves_pixels_per_frame(const struct curves *curves, const struct core *core)
+double curves_pixels_per_frame(const struct core *core)
 {
-    return core->view.layout.plot.w / (curves->view.frame1 - curves->view.frame0);
+    return core->view.layout.plot.w / (core->view.plot.frame1 - core->view.plot.frame0);
 }
 
-double curves_pixels_per_value(const struct curves *curves, const struct core *core)
+double curves_pixels_per_value(const struct core *core)
 {
-    return core->view.layout.plot.h / (curves->view.value1 - curves->view.value0);
+    return core->view.layout.plot.h / (core->view.plot.value1 - core->view.plot.value0);
 }
 
-float curves_x(const struct curves *curves, const struct core *core, double frame)
+float curves_x(const struct core *core, double frame)
 {
     const struct rect *plot = &core->view.layout.plot;
-    double x = plot->x + (frame - curves->view.frame0) * curves_pixels_per_frame(curves, core);
+    double x = plot->x + (frame - core->view.plot.frame0) * curves_pixels_per_frame(core);
     return (float)bounded(x, plot->x, plot->x + plot->w);
 }
 
-float curves_knot_x(const struct curves *curves, const struct core *core, const struct knot *knot)
+float curves_knot_x(const struct core *core, const struct knot *knot)
 {
-    return curves_x(curves, core, document_frame(core->document, document_sample(core->document, knot->frame)));
+    return curves_x(core, document_frame(core->document, document_sample(core->document, knot->frame)));
 }
 
-int curves_knot_from(const struct curves *curves, const struct core *core, const struct spline *spline, double x)
+int curves_knot_from(const struct core *core, const struct spline *spline, double x)
 {
-    const double sample = floor(core_position(core->document, curves_frame(curves, core, x)));
+    const double sample = floor(core_position(core->document, curves_frame(core, x)));
     return spline_lower_bound(core->document, spline, (int)fmin(fmax(sample, INT_MIN), INT_MAX));
 }
 
-float curves_y(const struct curves *curves, const struct core *core, double value)
+float curves_y(const struct core *core, double value)
 {
     const struct rect *plot = &core->view.layout.plot;
-    double y = plot->y + (curves->view.value1 - value) * curves_pixels_per_value(curves, core);
+    double y = plot->y + (core->view.plot.value1 - value) * curves_pixels_per_value(core);
     return (float)bounded(y, plot->y, plot->y + plot->h);
 }
 
-double curves_frame(const struct curves *curves, const struct core *core, double x)
+double curves_frame(const struct core *core, double x)
 {
-    return curves->view.frame0 + (x - core->view.layout.plot.x) / curves_pixels_per_frame(curves, core);
+    return core->view.plot.frame0 + (x - core->view.layout.plot.x) / curves_pixels_per_frame(core);
 }
 
-double curves_value(const struct curves *curves, const struct core *core, double y)
+double curves_value(const struct core *core, double y)
 {
-    return curves->view.value1 - (y - core->view.layout.plot.y) / curves_pixels_per_value(curves, core);
+    return core->view.plot.value1 - (y - core->view.layout.plot.y) / curves_pixels_per_value(core);
 }
 
 /// Keeps the view wider than rounding errors and within a sensible maximum.
-static void keep_sane(struct curves *curves, struct core *core)
+static void keep_sane(struct core *core)
 {
-    struct plotted *view = &curves->view;
+    struct plotted *view = &core->view.plot;
     double frames = fmin(fmax(view->frame1 - view->frame0, 0.5), 1e8);
     double values = fmin(fmax(view->value1 - view->value0, 1e-9), 1e15);
     double frame = fmin(fmax((view->frame0 + view->frame1) / 2, -1e9), 1e9);
     double value = fmin(fmax((view->value0 + view->value1) / 2, -1e15), 1e15);
     values = fmax(values, fabs(value) * 1e-9);
     *view = (struct plotted){frame - frames / 2, frame + frames / 2, value - values / 2, value + values / 2};
-    core->view.visible = view->value1 - view->value0;
 }
 
 /// An empty view, before anything is included.
@@ -124,8 +123,8 @@ static void include_curve(const struct curves *curves, const struct core *core, 
 static void include_seen(const struct curves *curves, const struct core *core, int spline, double first, double last,
                          struct plotted *part)
 {
-    const double left = floor(core_position(core->document, curves->view.frame0));
-    const double right = ceil(core_position(core->document, curves->view.frame1));
+    const double left = floor(core_position(core->document, core->view.plot.frame0));
+    const double right = ceil(core_position(core->document, core->view.plot.frame1));
     include_curve(curves, core, spline, fmax(first, fmax(left, 0)), fmin(last, right), part);
 }
 
@@ -144,15 +143,15 @@ static void view_set(struct curves *curves, struct core *core, struct plotted vi
 {
     curves->following = (struct following){0};
     core->step.edited = (struct edited){0};
-    curves->view = view;
-    keep_sane(curves, core);
+    core->view.plot = view;
+    keep_sane(core);
 }
 
 void curves_frame_all(struct curves *curves, struct core *core)
 {
     enum { COLUMNS = 200 };
     const struct document *document = core->document;
-    struct plotted part = NOTHING, *view = &curves->view;
+    struct plotted part = NOTHING, *view = &core->view.plot;
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
         if (core->view.on[SWITCH_NORMALISE] && s != core->focus.active) continue;
@@ -187,26 +186,26 @@ void curves_frame_selection(struct curves *curves, struct core *core)
         return;
     }
     const double margin = fmax(0.25 * (part.frame1 - part.frame0), 6);
-    curves->view.frame0 = part.frame0 - margin;
-    curves->view.frame1 = part.frame1 + margin;
+    core->view.plot.frame0 = part.frame0 - margin;
+    core->view.plot.frame1 = part.frame1 + margin;
     int seen = -1;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at); seen = at.spline) {
         if (at.spline != seen) include_seen(curves, core, at.spline, 0, INFINITY, &part);
     }
-    show_values(&curves->view, &part);
-    view_set(curves, core, curves->view);
+    show_values(&core->view.plot, &part);
+    view_set(curves, core, core->view.plot);
 }
 
 static void shift_view(struct curves *curves, struct core *core, double frames, double values)
 {
-    const struct plotted *v = &curves->view;
+    const struct plotted *v = &core->view.plot;
     view_set(curves, core,
              (struct plotted){v->frame0 + frames, v->frame1 + frames, v->value0 + values, v->value1 + values});
 }
 
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value)
 {
-    const struct plotted *view = &curves->view;
+    const struct plotted *view = &core->view.plot;
     const double frames = 0.05 * (view->frame1 - view->frame0), values = 0.05 * (view->value1 - view->value0);
     shift_view(curves, core, fmin(frame - frames - view->frame0, 0) + fmax(frame + frames - view->frame1, 0),
                fmin(value - values - view->value0, 0) + fmax(value + values - view->value1, 0));
@@ -214,13 +213,13 @@ void curves_reveal(struct curves *curves, struct core *core, double frame, doubl
 
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 {
-    shift_view(curves, core, -dx / curves_pixels_per_frame(curves, core), dy / curves_pixels_per_value(curves, core));
+    shift_view(curves, core, -dx / curves_pixels_per_frame(core), dy / curves_pixels_per_value(core));
 }
 
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
 {
-    const struct plotted *view = &curves->view;
-    const double frame = curves_frame(curves, core, x), value = curves_value(curves, core, y);
+    const struct plotted *view = &core->view.plot;
+    const double frame = curves_frame(core, x), value = curves_value(core, y);
     view_set(curves, core,
              (struct plotted){
                  frame + (view->frame0 - frame) * time_factor, frame + (view->frame1 - frame) * time_factor,
@@ -252,7 +251,7 @@ struct value_map normal_map(const struct curves *curves, const struct core *core
 static float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value)
 {
     struct value_map map = normal_map(curves, core, spline);
-    return curves_y(curves, core, map.scale * value + map.offset);
+    return curves_y(core, map.scale * value + map.offset);
 }
 
 float curves_knot_y(const struct curves *curves, const struct core *core, int spline, const struct knot *knot)
@@ -270,7 +269,7 @@ static bool warning_place(const struct curves *curves, const struct core *core, 
     xy[0] = plot.x + EDGE;
     xy[1] = plot.y + EDGE;
     if (warning->kind == WARNING_RATE) return true;
-    xy[0] = curves_x(curves, core, warning->frame);
+    xy[0] = curves_x(core, warning->frame);
     xy[1] = fminf(fmaxf(curves_y_of(curves, core, warning->spline, warning->value) - LIFT, plot.y + EDGE),
                   plot.y + plot.h - EDGE);
     return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
@@ -279,7 +278,7 @@ static bool warning_place(const struct curves *curves, const struct core *core, 
 void curves_activate(struct curves *curves, struct core *core, int before)
 {
     const struct value_map map = map_between(curves, core, before, core->focus.active);
-    const struct plotted *view = &curves->view;
+    const struct plotted *view = &core->view.plot;
     view_set(curves, core,
              (struct plotted){view->frame0, view->frame1, (view->value0 - map.offset) / map.scale,
                               (view->value1 - map.offset) / map.scale});
@@ -325,12 +324,12 @@ void follow_edits(struct curves *curves, struct core *core)
         include_seen(curves, core, at.spline, first, last, &part);
     }
     for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
-    struct plotted goal = following->moves ? following->goal : curves->view;
+    struct plotted goal = following->moves ? following->goal : core->view.plot;
     if (part.frame0 <= part.frame1) widen(&goal.frame0, &goal.frame1, (double[2]){part.frame0, part.frame1}, WIDEST);
     if (part.value0 <= part.value1)
         widen(&goal.value0, &goal.value1, (double[2]){part.value0, part.value1}, INFINITY);
-    const bool moves = goal.frame0 != curves->view.frame0 || goal.frame1 != curves->view.frame1 ||
-                       goal.value0 != curves->view.value0 || goal.value1 != curves->view.value1;
+    const bool moves = goal.frame0 != core->view.plot.frame0 || goal.frame1 != core->view.plot.frame1 ||
+                       goal.value0 != core->view.plot.value0 || goal.value1 != core->view.plot.value1;
     *following = (struct following){.moves = moves, .goal = goal};
     core->step.edited = (struct edited){0};
 }
@@ -343,16 +342,16 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
         core->input.drag.owner && core->input.drag.room == curves; // curves must not rescale during a drag
     if (!following->moves || is_measured) return;
     const double share = 1 - maths_exp(-RATE * fmax(dt, 0));
-    const struct plotted *view = &curves->view, *goal = &following->goal;
+    const struct plotted *view = &core->view.plot, *goal = &following->goal;
     const double left[4] = {goal->frame0 - view->frame0, goal->frame1 - view->frame1, goal->value0 - view->value0,
                             goal->value1 - view->value1};
-    const double frames = fmax(fabs(left[0]), fabs(left[1])) * curves_pixels_per_frame(curves, core);
-    const double values = fmax(fabs(left[2]), fabs(left[3])) * curves_pixels_per_value(curves, core);
+    const double frames = fmax(fabs(left[0]), fabs(left[1])) * curves_pixels_per_frame(core);
+    const double values = fmax(fabs(left[2]), fabs(left[3])) * curves_pixels_per_value(core);
     const bool there = fmax(frames, values) < CLOSE;
-    curves->view = there ? *goal
-                         : (struct plotted){view->frame0 + share * left[0], view->frame1 + share * left[1],
-                                            view->value0 + share * left[2], view->value1 + share * left[3]};
-    keep_sane(curves, core);
+    core->view.plot = there ? *goal
+                            : (struct plotted){view->frame0 + share * left[0], view->frame1 + share * left[1],
+                                               view->value0 + share * left[2], view->value1 + share * left[3]};
+    keep_sane(core);
     following->moves = !there;
 }
 
@@ -361,7 +360,6 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
 struct curves *curves_create(void)
 {
     struct curves *curves = need_zeroed(1, sizeof *curves);
-    curves->view = (struct plotted){0, 120, -1, 1};
     return curves;
 }
 
@@ -391,9 +389,9 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
         "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)";
     const struct spline *spline = core->document->splines[of];
     float best = reach;
-    for (int k = curves_knot_from(curves, core, spline, xy[0] - reach); k < spline->knot_count; k++) {
+    for (int k = curves_knot_from(core, spline, xy[0] - reach); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        float at = curves_knot_x(curves, core, knot);
+        float at = curves_knot_x(core, knot);
         if (at > xy[0] + reach) break;
         const float down = isnan(xy[1]) ? 0 : xy[1] - curves_knot_y(curves, core, of, knot);
         if (is_nearest(maths_hypotf(xy[0] - at, down), &best))
@@ -417,7 +415,7 @@ static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PA
 
 struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
-    struct hover hover = ruler_pins_hover(curves, core, x, y);
+    struct hover hover = ruler_pins_hover(core, x, y);
     const struct spline *spline = core_active_spline(core);
     if (hover.thing) return hover;
     if (rect_contains(core->view.layout.ruler, x, y)) hover.thing = &thing_ruler;
@@ -434,7 +432,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
         const struct knot *knot = &spline->knots[k];
         if (!knot->has_slope || !selection_has(&core->focus.selection, knot->id)) continue;
         for (int end = 0; end < 2; end++) {
-            curves_handle(curves, core, knot, end, xy);
+            curves_handle(core, knot, end, xy);
             if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
                 hover = (struct hover){
                     .thing = &thing_slope, .spline = core->focus.active, .knot = knot->id, .handle = end};
@@ -457,12 +455,12 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     best = LIMIT_REACH;
     for (int i = 0; i < 2 && seen; i++) {
         const double value = spline->parameter[limit_of(i)].value;
-        if (is_nearest(isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY, &best))
+        if (is_nearest(isfinite(value) ? fabsf(y - curves_y(core, value)) : INFINITY, &best))
             hover = (struct hover){.thing = &thing_limit, .spline = core->focus.active, .handle = i};
     }
     if (hover.thing) return hover;
     // The nearest curve directly above or below, the active one first.
-    const double position = core_position(core->document, curves_frame(curves, core, x));
+    const double position = core_position(core->document, curves_frame(core, x));
     best = CURVE_REACH;
     for (int i = 0; i < core->document->spline_count; i++) {
         const int s = i == 0 ? core->focus.active : i <= core->focus.active ? i - 1 : i;
@@ -483,11 +481,11 @@ static void press_plot(void *room, struct core *core, const struct hover *hover,
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
     if (event->clicks == 2 && hover->thing) {
         core_activate(core, hover->spline);
-        core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
+        core_insert_on_curve(core, curves_frame(core, event->x), drag_snaps(core, event->mods),
                              event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
     } else if (event->clicks == 2) {
-        double value = core_round(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
-        core_insert_knot(core, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
+        double value = core_round(curves_value(core, event->y), 0.01 / curves_pixels_per_value(core));
+        core_insert_knot(core, curves_frame(core, event->x), value, drag_snaps(core, event->mods));
     } else {
         if (hover->thing && !keeps) core_choose(core, hover->spline);
         box_begin(curves, core, event);
@@ -496,7 +494,8 @@ static void press_plot(void *room, struct core *core, const struct hover *hover,
 
 static bool find_curve(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    return curves_in_plot(room, core, target->number[0], target->number[1], xy);
+    (void)room;
+    return curves_in_plot(core, target->number[0], target->number[1], xy);
 }
 
 /// curve(sway,36,1): a frame and a value.
@@ -542,8 +541,8 @@ static void move_limit(void *room, struct core *core)
     const struct curves *curves = room;
     const struct limit_drag *drag = &curves->limit_drag;
     const struct spline *spline = core_active_spline(core);
-    double by = -core->input.drag.moved_y / curves_pixels_per_value(curves, core);
-    double value = core_round(drag->value + by, 0.01 / curves_pixels_per_value(curves, core));
+    double by = -core->input.drag.moved_y / curves_pixels_per_value(core);
+    double value = core_round(drag->value + by, 0.01 / curves_pixels_per_value(core));
     const double other = spline->parameter[limit_of(!drag->handle)].value;
     for (int k = 0; k < spline->knot_count; k++) {
         const double knot = spline->knots[k].value;
@@ -616,9 +615,9 @@ static void take_inside(const struct curves *curves, struct core *core, int s)
 {
     const struct rect box = box_rect(&core->input.drag);
     const struct spline *spline = core->document->splines[s];
-    for (int k = curves_knot_from(curves, core, spline, box.x); k < spline->knot_count; k++) {
+    for (int k = curves_knot_from(core, spline, box.x); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        const float x = curves_knot_x(curves, core, knot), y = curves_knot_y(curves, core, s, knot);
+        const float x = curves_knot_x(core, knot), y = curves_knot_y(curves, core, s, knot);
         if (x >= box.x + box.w) break;
         if (x >= box.x && (curves->knot_drag.in_sheet || rect_contains(box, x, y)))
             selection_set(&core->focus.selection, knot->id, curves->knot_drag.box != BOX_REMOVE);

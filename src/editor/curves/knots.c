@@ -49,14 +49,14 @@ static void apply_knots(void *of, struct core *core)
     const struct drag *drag = &core->input.drag;
     const struct originals *originals = &core->step.originals;
     const struct document *document = core->document;
-    const double pixels = curves_pixels_per_value(curves, core);
+    const double pixels = curves_pixels_per_value(core);
     char why[STOPPED_SIZE] = "";
     if (originals->count == 0) return;
     const struct original *held = &originals->list[0];
     for (int i = 0; i < originals->count; i++) {
         if (originals->list[i].knot.id == drag->knot) held = &originals->list[i];
     }
-    double frames = drag->lock_y ? 0 : drag->moved_x / curves_pixels_per_frame(curves, core);
+    double frames = drag->lock_y ? 0 : drag->moved_x / curves_pixels_per_frame(core);
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
 
     // To the left a spline's first original may go to the first frame or, with ripple, just after the unmoved knot before it.
@@ -93,15 +93,15 @@ static void apply_slope(void *of, struct core *core)
     const struct drag *drag = &core->input.drag;
     const struct knot *knot = &core->step.originals.list[0].knot;
     float end[2];
-    curves_handle(curves, core, knot, curves->knot_drag.handle, end);
-    double x = curves_knot_x(curves, core, knot);
+    curves_handle(core, knot, curves->knot_drag.handle, end);
+    double x = curves_knot_x(core, knot);
     double across = end[0] + drag->moved_x - x;
-    double down = end[1] + drag->moved_y - curves_y(curves, core, knot->value);
+    double down = end[1] + drag->moved_y - curves_y(core, knot->value);
     across = curves->knot_drag.handle ? fmax(across, 2) : fmin(across, -2);
-    double seconds = across / curves_pixels_per_frame(curves, core) / core->document->fps;
+    double seconds = across / curves_pixels_per_frame(core) / core->document->fps;
     struct knot turned = *knot;
-    turned.slope =
-        core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->view.visible);
+    turned.slope = core_round(-down / curves_pixels_per_value(core) / seconds,
+                              SLOPE_RESOLUTION * (core->view.plot.value1 - core->view.plot.value0));
     double length = handle_length(knot->stiffness), longer = maths_hypot(across, down) - length;
     if (fabs(longer) > LENGTH_SLACK) {
         turned.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
@@ -175,18 +175,19 @@ static void press_knot(void *room, struct core *core, const struct hover *hover,
         rect_contains(core->view.layout.sheet, event->x, event->y); // the dope sheet has only time
 }
 
-bool curves_in_plot(const struct curves *curves, const struct core *core, double frame, double value, float xy[2])
+bool curves_in_plot(const struct core *core, double frame, double value, float xy[2])
 {
     const struct rect *plot = &core->view.layout.plot;
-    xy[0] = curves_x(curves, core, frame);
-    xy[1] = curves_y(curves, core, value);
+    xy[0] = curves_x(core, frame);
+    xy[1] = curves_y(core, value);
     return xy[0] >= plot->x && xy[1] >= plot->y && xy[0] <= plot->x + plot->w && xy[1] <= plot->y + plot->h;
 }
 
 static bool find_knot(void *room, const struct core *core, const struct target *target, float xy[2])
 {
     const struct document *document = core->document;
-    return curves_in_plot(room, core, document_frame(document, document_sample(document, target->knot->frame)),
+    (void)room;
+    return curves_in_plot(core, document_frame(document, document_sample(document, target->knot->frame)),
                           core_knot_value(core, target->spline, target->knot), xy);
 }
 
@@ -215,7 +216,8 @@ static void press_slope(void *room, struct core *core, const struct hover *hover
 
 static bool find_slope(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    curves_handle(room, core, target->knot, target->number[1] > 0, xy);
+    (void)room;
+    curves_handle(core, target->knot, target->number[1] > 0, xy);
     return target->knot->has_slope;
 }
 
@@ -237,7 +239,7 @@ enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
 
 void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths)
 {
-    const double up = 0.01 * hundredths * core->view.visible;
+    const double up = 0.01 * hundredths * (core->view.plot.value1 - core->view.plot.value0);
     struct moving moving = {curves, core, frames, up, 0.01 * fabs(up)};
     enum room room = ROOM_FREE;
     char why[STOPPED_SIZE] = "";
@@ -382,11 +384,13 @@ static struct knot scaled_knot(const void *how, const struct original *original)
         const struct value_map map = normal_map(curves, core, original->spline);
         const double drawn = (scaling->value - map.offset) / map.scale;
         const double pivot = scaling->pivot == PIVOT_EQUILIBRIUM ? original->equilibrium : drawn;
-        const double resolution = 0.01 / curves_pixels_per_value(curves, core) / map.scale;
+        const double resolution = 0.01 / curves_pixels_per_value(core) / map.scale;
         to.value = core_round(pivot + by.value * (original->value - pivot), resolution);
     }
     to.phase *= by.time < 0 ? -by.value : by.value; // time runs backwards, so the swing does
-    if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, FINE_SLOPE * core->view.visible);
+    if (steeper != 1)
+        to.slope = core_round(original->knot.slope * steeper,
+                              FINE_SLOPE * (core->view.plot.value1 - core->view.plot.value0));
     return to;
 }
 
@@ -397,12 +401,12 @@ static void scale_knots(void *room, struct core *core)
     const struct drag *drag = &core->input.drag;
     const struct originals *originals = &core->step.originals;
     const struct scale scale = {curves, core};
-    const double x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value);
+    const double x = curves_x(core, scaling->frame), y = curves_y(core, scaling->value);
     struct factors by;
     if (scaling->handle >= 0) {
         const int column = box_column(scaling->handle), row = box_row(scaling->handle);
-        const double across = curves_x(curves, core, scaling->edge[0]) - (float)x;
-        const double down = curves_y(curves, core, scaling->edge[1]) - (float)y;
+        const double across = curves_x(core, scaling->edge[0]) - (float)x;
+        const double down = curves_y(core, scaling->edge[1]) - (float)y;
         by = (struct factors){column ? edge_factor(across, drag->moved_x, column) : 1,
                               row ? edge_factor(down, drag->moved_y, row) : 1};
     } else {
@@ -492,7 +496,7 @@ static void scale_show(void *room, struct core *core)
     const struct drag *drag = &core->input.drag;
     const struct rect clip = drawlist_push_clip(&core->list, core->view.layout.plot);
     scale_box_show(curves, core, true);
-    const float pivot_x = curves_x(curves, core, scaling->frame), pivot_y = curves_y(curves, core, scaling->value);
+    const float pivot_x = curves_x(core, scaling->frame), pivot_y = curves_y(core, scaling->value);
     const float arm = 7, across[] = {pivot_x - arm, pivot_y, pivot_x + arm, pivot_y},
                 down[] = {pivot_x, pivot_y - arm, pivot_x, pivot_y + arm};
     const float line[] = {pivot_x, pivot_y, drag->x, drag->y};
@@ -608,7 +612,7 @@ static bool find_knot_box(const struct curves *curves, const struct core *core, 
     int count = 0;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at); count++) {
         const struct knot *knot = knot_at(core->document, at);
-        const float x = curves_knot_x(curves, core, knot);
+        const float x = curves_knot_x(core, knot);
         const float y = curves_knot_y(curves, core, at.spline, knot);
         left = fminf(left, x);
         right = fmaxf(right, x);
@@ -760,7 +764,7 @@ static void press_row(void *room, struct core *core, const struct hover *hover, 
     if (!keeps || event->clicks == 2) core_choose(core, hover->spline);
     if (!inside) return;
     if (event->clicks == 2) {
-        core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
+        core_insert_on_curve(core, curves_frame(core, event->x), drag_snaps(core, event->mods),
                              event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
         return;
     }
@@ -787,7 +791,7 @@ static bool find_mark(void *room, const struct core *core, const struct target *
     const struct curves *curves = room;
     for (int row = 0; row < curves->sheet.rows; row++) {
         if (curves->sheet.spline[row] != target->spline) continue;
-        xy[0] = curves_knot_x(curves, core, target->knot);
+        xy[0] = curves_knot_x(core, target->knot);
         xy[1] = row_y(core, row);
         return rect_contains(core->view.layout.sheet, xy[0], xy[1]);
     }
@@ -826,8 +830,8 @@ void sheet_show(const struct curves *curves, struct core *core)
         if (active || hot) drawlist_rect(&core->list, band, theme_fade(theme()->text, active ? 0.07f : 0.035f));
         struct rect clip = drawlist_push_clip(&core->list, *area);
         if (spline->knot_count > 1) {
-            const float from = curves_knot_x(curves, core, &spline->knots[0]);
-            const float to = curves_knot_x(curves, core, &spline->knots[spline->knot_count - 1]);
+            const float from = curves_knot_x(core, &spline->knots[0]);
+            const float to = curves_knot_x(core, &spline->knots[spline->knot_count - 1]);
             const struct rect line = {from, roundf(middle) - 0.5f, to - from, 1};
             drawlist_rect(&core->list, line, theme_fade(color, 0.35f));
         }

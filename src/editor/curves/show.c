@@ -57,8 +57,8 @@ static void draw_band(const struct curves *curves, const struct core *core, int 
         const double middle = cache->first + cache->by * c;
         const double position = outermost(core->evaluation, spline, middle, widened(cache), c % 2);
         const wiggly_value v = evaluation_at(core->evaluation, spline, position);
-        line[c][0] = curves_x(curves, core, frame_of(core->document, middle));
-        line[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
+        line[c][0] = curves_x(core, frame_of(core->document, middle));
+        line[c][1] = curves_y(core, map.scale * (v.y + v.re) + map.offset);
     }
 }
 
@@ -98,13 +98,13 @@ static void draw_active(struct curves *curves, const struct core *core)
     }
     for (int c = 0; c < cache->count; c++) {
         wiggly_value v = evaluation_at(evaluation, core->focus.active, cache->position[c]);
-        float x = curves_x(curves, core, frame_of(core->document, cache->position[c]));
-        memcpy(cache->re[c], (float[2]){x, curves_y(curves, core, v.y + v.re)}, sizeof cache->re[c]);
-        memcpy(cache->im[c], (float[2]){x, curves_y(curves, core, v.y + v.im)}, sizeof cache->im[c]);
-        memcpy(cache->equilibrium[c], (float[2]){x, curves_y(curves, core, v.y)}, sizeof cache->equilibrium[c]);
+        float x = curves_x(core, frame_of(core->document, cache->position[c]));
+        memcpy(cache->re[c], (float[2]){x, curves_y(core, v.y + v.re)}, sizeof cache->re[c]);
+        memcpy(cache->im[c], (float[2]){x, curves_y(core, v.y + v.im)}, sizeof cache->im[c]);
+        memcpy(cache->equilibrium[c], (float[2]){x, curves_y(core, v.y)}, sizeof cache->equilibrium[c]);
         for (int i = 0; i < cache->fan_count; i++) { /* eq. 27: Re(e^{−jφ} x) */
             cache->fan[i][c][0] = x;
-            cache->fan[i][c][1] = curves_y(curves, core, v.y + turn[i][0] * v.re + turn[i][1] * v.im);
+            cache->fan[i][c][1] = curves_y(core, v.y + turn[i][0] * v.re + turn[i][1] * v.im);
         }
     }
     cache->band = is_band(cache, cache->re);
@@ -122,7 +122,7 @@ static void draw_active(struct curves *curves, const struct core *core)
             most = c % 2 ? fmax(most, v.y + v.im) : fmin(most, v.y + v.im);
         }
         cache->im[c][0] = cache->re[c][0];
-        if (isfinite(most)) cache->im[c][1] = curves_y(curves, core, most);
+        if (isfinite(most)) cache->im[c][1] = curves_y(core, most);
     }
 }
 
@@ -139,16 +139,16 @@ static void curves_update(struct curves *curves, struct core *core)
     key = hash_bytes(key, choice, sizeof choice);
     key = hash_bytes(key, &held, sizeof held);
     key = hash_bytes(key, &core->view.visibility, sizeof core->view.visibility);
-    key = hash_bytes(key, &curves->view, sizeof curves->view);
+    key = hash_bytes(key, &core->view.plot, sizeof core->view.plot);
     key = hash_bytes(key, &core->view.layout.plot, sizeof core->view.layout.plot);
     if (key == 0) key = 1;
     if (key == cache->key) return;
     cache->key = key;
 
     // The columns of the visible part of the scene's range.
-    const double left = fmax(curves->view.frame0, document->first_frame);
-    const double right = fmin(curves->view.frame1, document->last_frame);
-    const double pixels = (right - left) * curves_pixels_per_frame(curves, core);
+    const double left = fmax(core->view.plot.frame0, document->first_frame);
+    const double right = fmin(core->view.plot.frame1, document->last_frame);
+    const double pixels = (right - left) * curves_pixels_per_frame(core);
     cache->count = right > left ? (int)fmin(fmax(ceil(pixels) + 1, 2), EDITOR_MAX_COLUMNS) : 0;
     if (cache->count > 0) {
         cache->first = core_position(document, left);
@@ -191,8 +191,8 @@ static void curves_update(struct curves *curves, struct core *core)
         for (int c = 0; c < cache->count; c++) {
             double position = outermost(evaluation, s, cache->position[c], by, c % 2);
             wiggly_value v = evaluation_at(evaluation, s, position);
-            (*line)[c][0] = curves_x(curves, core, frame_of(document, position));
-            (*line)[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
+            (*line)[c][0] = curves_x(core, frame_of(document, position));
+            (*line)[c][1] = curves_y(core, map.scale * (v.y + v.re) + map.offset);
         }
         const bool band = cache->other_band[cache->other_count++] = is_band(cache, *line);
         if (band) draw_band(curves, core, s, map, *line);
@@ -213,8 +213,8 @@ void keep_ghost(struct curves *curves, const struct core *core)
         ghost->frame[c] = frame_of(core->document, cache->position[c]);
         ghost->value[c] = v.y + v.re;
         if (!cache->band) continue;
-        ghost->frame[c] = curves_frame(curves, core, cache->re[c][0]);
-        ghost->value[c] = curves_value(curves, core, cache->re[c][1]);
+        ghost->frame[c] = curves_frame(core, cache->re[c][0]);
+        ghost->value[c] = curves_value(core, cache->re[c][1]);
     }
 }
 
@@ -256,17 +256,17 @@ static struct rect field_of(const struct core *core)
     return (struct rect){plot->x, sheet->y, plot->w, sheet->h + plot->h};
 }
 
-static void vertical(const struct curves *curves, struct core *core, double frame, uint32_t color)
+static void vertical(struct core *core, double frame, uint32_t color)
 {
     const struct rect field = field_of(core);
-    float x = sharp(core, curves_x(curves, core, frame));
+    float x = sharp(core, curves_x(core, frame));
     drawlist_rect(&core->list, (struct rect){x, field.y, 1, field.h}, color);
 }
 
-static void horizontal(const struct curves *curves, struct core *core, double value, uint32_t color)
+static void horizontal(struct core *core, double value, uint32_t color)
 {
     const struct rect *plot = &core->view.layout.plot;
-    float y = sharp(core, curves_y(curves, core, value));
+    float y = sharp(core, curves_y(core, value));
     drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1}, color);
 }
 
@@ -296,10 +296,10 @@ static void tag_text(const struct core *core, char text[32])
 }
 
 /// The rectangle of the playhead's frame number on the ruler; empty if the playhead is not visible.
-static struct rect playhead_tag(const struct curves *curves, const struct core *core)
+static struct rect playhead_tag(const struct core *core)
 {
     const struct rect *ruler = &core->view.layout.ruler;
-    float x = curves_x(curves, core, core_frame(core));
+    float x = curves_x(core, core_frame(core));
     if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
     char text[32];
     tag_text(core, text);
@@ -308,21 +308,21 @@ static struct rect playhead_tag(const struct curves *curves, const struct core *
     return (struct rect){left, ruler->y + 3, width, 16};
 }
 
-static void grid_show(const struct curves *curves, struct core *core)
+static void grid_show(struct core *core)
 {
     const struct layout *layout = &core->view.layout;
     const struct rect field = field_of(core), *plot = &layout->plot, *ruler = &layout->ruler,
                       *axis = &layout->value_axis;
-    const struct plotted *view = &curves->view;
+    const struct plotted *view = &core->view.plot;
     char text[32];
     const double unit = core->view.on[SWITCH_SECONDS] ? core->document->fps : 1; // frames per unit of the ruler
-    struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
-    struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
+    struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(core) * unit));
+    struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(core));
     drawlist_rect(&core->list, layout->curves, theme()->panel);
     struct rect clip = drawlist_push_clip(&core->list, field);
     const float right = field.x + field.w;
-    float first = fmaxf(curves_x(curves, core, core->document->first_frame), field.x);
-    float last = fminf(curves_x(curves, core, core->document->last_frame), right);
+    float first = fmaxf(curves_x(core, core->document->first_frame), field.x);
+    float last = fminf(curves_x(core, core->document->last_frame), right);
     if (first > field.x)
         drawlist_rect(&core->list, (struct rect){field.x, field.y, first - field.x, field.h}, theme()->outside);
     if (last < right)
@@ -330,18 +330,18 @@ static void grid_show(const struct curves *curves, struct core *core)
 
     double minor = times.size / times.parts * unit;
     for (double i = ceil(view->frame0 / minor); i * minor <= view->frame1; i++) {
-        if (fmod(i, times.parts) != 0) vertical(curves, core, i * minor, theme()->grid_minor);
+        if (fmod(i, times.parts) != 0) vertical(core, i * minor, theme()->grid_minor);
     }
     minor = values.size / values.parts;
     for (double i = ceil(view->value0 / minor); i * minor <= view->value1; i++) {
-        if (fmod(i, values.parts) != 0) horizontal(curves, core, i * minor, theme()->grid_minor);
+        if (fmod(i, values.parts) != 0) horizontal(core, i * minor, theme()->grid_minor);
     }
     double major = times.size * unit;
     for (double i = ceil(view->frame0 / major); i * major <= view->frame1; i++) {
-        vertical(curves, core, i * major, theme()->grid_major);
+        vertical(core, i * major, theme()->grid_major);
     }
     for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
-        horizontal(curves, core, i * values.size, i == 0 ? theme()->zero : theme()->grid_major);
+        horizontal(core, i * values.size, i == 0 ? theme()->zero : theme()->grid_major);
     }
     drawlist_set_clip(&core->list, clip);
     drawlist_rect(&core->list, (struct rect){ruler->x, layout->sheet.y - 1, ruler->w, 1}, theme()->border);
@@ -351,7 +351,7 @@ static void grid_show(const struct curves *curves, struct core *core)
         float x[2];
         playback_range(core, range);
         for (int end = 0; end < 2; end++)
-            x[end] = fminf(fmaxf(curves_x(curves, core, range[end]), plot->x), plot->x + plot->w);
+            x[end] = fminf(fmaxf(curves_x(core, range[end]), plot->x), plot->x + plot->w);
         const float width = x[1] - x[0];
         drawlist_rect(&core->list, (struct rect){x[0], plot->y, width, plot->h}, theme_fade(color, 0.05f));
         drawlist_rect(&core->list, (struct rect){x[0], ruler->y, width, ruler->h}, theme_fade(color, 0.14f));
@@ -361,11 +361,11 @@ static void grid_show(const struct curves *curves, struct core *core)
 
     // Frames or seconds, centred over the grid lines, but for the one under the playhead's tag.
     clip = drawlist_push_clip(&core->list, *ruler);
-    const struct rect tag = playhead_tag(curves, core);
+    const struct rect tag = playhead_tag(core);
     for (double i = ceil(view->frame0 / unit / times.size); i * times.size <= view->frame1 / unit; i++) {
         snprintf(text, sizeof text, "%.*f", times.decimals, i * times.size + 0.0);
         float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        float x = curves_x(curves, core, i * times.size * unit) - width / 2;
+        float x = curves_x(core, i * times.size * unit) - width / 2;
         if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
         if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
         drawlist_text(&core->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
@@ -381,7 +381,7 @@ static void grid_show(const struct curves *curves, struct core *core)
     const float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
     for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
         double value = i * values.size;
-        float y = curves_y(curves, core, value);
+        float y = curves_y(core, value);
         if (y < axis->y + 8 || y > axis->y + axis->h - 8) continue;
         bool wide = fabs(value) >= 1e6 || values.size < 1e-6;
         snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : values.decimals, value + 0.0);
@@ -394,15 +394,17 @@ static void grid_show(const struct curves *curves, struct core *core)
 
 static void choose_range(void *room, struct core *core)
 {
-    const double from = round(curves_frame(room, core, core->input.drag.start_x));
-    const double to = round(curves_frame(room, core, core->input.drag.x));
+    const double from = round(curves_frame(core, core->input.drag.start_x));
+    const double to = round(curves_frame(core, core->input.drag.x));
+    (void)room;
     playback_choose(core, fmin(from, to), fmax(from, to));
     playback_say_range(core);
 }
 
 static void scrub(void *room, struct core *core)
 {
-    const double frame = curves_frame(room, core, core->input.drag.x);
+    const double frame = curves_frame(core, core->input.drag.x);
+    (void)room;
     playback_seek(core, core->input.drag.snap ? round(frame) : frame);
 }
 
@@ -412,7 +414,7 @@ static void press_ruler(void *room, struct core *core, const struct hover *hover
     static const struct drag_owner scrubbing = {.cursor = CURSOR_HORIZONTAL, .move = scrub},
                                    choosing = {.cursor = CURSOR_HORIZONTAL, .move = choose_range, .end = end_range};
     struct curves *curves = room;
-    const double frame = curves_frame(curves, core, event->x);
+    const double frame = curves_frame(core, event->x);
     (void)hover;
     drag_begin(core, event->mods & MOD_SHIFT ? &choosing : &scrubbing, curves, NULL, event);
     memcpy(curves->range_before, core->view.playback.range, sizeof curves->range_before);
@@ -422,7 +424,8 @@ static void press_ruler(void *room, struct core *core, const struct hover *hover
 static bool find_ruler(void *room, const struct core *core, const struct target *target, float xy[2])
 {
     const struct rect *ruler = &core->view.layout.ruler;
-    xy[0] = curves_x(room, core, target->number[0]);
+    (void)room;
+    xy[0] = curves_x(core, target->number[0]);
     xy[1] = ruler->y + ruler->h / 2;
     return rect_contains(*ruler, xy[0], xy[1]);
 }
@@ -440,14 +443,14 @@ const struct thing thing_ruler = {
 static const float REACH = 6;                        ///< pixels at which a mark is hit
 static const float RADIUS = 4, ABOVE = 9, BELOW = 6; ///< pixels around a mark on the ruler's lower edge
 
-static void place_pin(const struct curves *curves, const struct core *core, const struct pin *pin, float xy[2])
+static void place_pin(const struct core *core, const struct pin *pin, float xy[2])
 {
     const struct rect *ruler = &core->view.layout.ruler;
-    xy[0] = curves_x(curves, core, document_frame(core->document, document_sample(core->document, pin->frame)));
+    xy[0] = curves_x(core, document_frame(core->document, document_sample(core->document, pin->frame)));
     xy[1] = ruler->y + ruler->h - 1;
 }
 
-struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y)
+struct hover ruler_pins_hover(const struct core *core, float x, float y)
 {
     const struct rect *ruler = &core->view.layout.ruler;
     struct hover hover = {.thing = NULL};
@@ -457,7 +460,7 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
     struct pin_place at = PINS_START;
     for (const struct pin *pin; (pin = pins_next(core->document, &at));) {
         float xy[2];
-        place_pin(curves, core, pin, xy);
+        place_pin(core, pin, xy);
         float distance = fabsf(x - xy[0]);
         if (distance < REACH && core->focus.pin.any && core->focus.pin.id == pin->id) distance = -1;
         if (distance >= best) continue;
@@ -476,7 +479,7 @@ static void move_pin_time(void *room, struct core *core)
     const struct pin *pin = pins_selected(core, &rig);
     if (!pin || pin->id != drag->id) return;
     struct pin moved = *pin;
-    double frame = drag->frame + core->input.drag.moved_x / curves_pixels_per_frame(curves, core);
+    double frame = drag->frame + core->input.drag.moved_x / curves_pixels_per_frame(core);
     if (core->input.drag.snap) frame = round(frame);
     int sample = document_sample(document, frame), last = pins_last_sample(document, document->rigs[rig]);
     sample = sample < 0 ? 0 : sample > last ? last : sample;
@@ -506,7 +509,8 @@ static void press_pin_time(void *room, struct core *core, const struct hover *ho
 
 static bool find_pin_time(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    place_pin(room, core, target->pin, xy);
+    (void)room;
+    place_pin(core, target->pin, xy);
     return rect_contains(core->view.layout.ruler, xy[0], xy[1]);
 }
 
@@ -587,7 +591,7 @@ static void show_lines(struct curves *curves, struct core *core)
         for (int round = 0; round < (from < document->first_frame ? 2 : 1); round++) {
             const double first = fmax(from + round * period, document->first_frame);
             const double end = fmin(knot->frame + round * period, document->last_frame);
-            const float x = curves_x(curves, core, first), width = curves_x(curves, core, end) - x;
+            const float x = curves_x(core, first), width = curves_x(core, end) - x;
             drawlist_rect(&core->list, (struct rect){x, plot.y, width, plot.h}, theme_fade(color, 0.07f));
         }
     }
@@ -600,8 +604,8 @@ static void show_lines(struct curves *curves, struct core *core)
     if (spline && cache->count > 1) {
         if (ghost->is_shown && core->input.drag.owner && ghost->count > 1) {
             for (int c = 0; c < ghost->count; c++) {
-                xy[2 * c] = curves_x(curves, core, ghost->frame[c]);
-                xy[2 * c + 1] = curves_y(curves, core, ghost->value[c]);
+                xy[2 * c] = curves_x(core, ghost->frame[c]);
+                xy[2 * c + 1] = curves_y(core, ghost->value[c]);
             }
             show_line(core, xy, ghost->count, ghost->band, 1, theme_fade(theme()->playhead, 0.25f));
         }
@@ -631,8 +635,8 @@ static void show_lines(struct curves *curves, struct core *core)
             if (middle < 0 || middle > take->evaluation.samples - 1) continue;
             const double position = outermost(&take->evaluation, before, middle, by, c % 2);
             const wiggly_value v = evaluation_at(&take->evaluation, before, position);
-            xy[2 * count] = curves_x(curves, core, frame);
-            xy[2 * count++ + 1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
+            xy[2 * count] = curves_x(core, frame);
+            xy[2 * count++ + 1] = curves_y(core, map.scale * (v.y + v.re) + map.offset);
         }
         if (count > 1) drawlist_line(&core->list, xy, count, 1.25f, theme_fade(color, i < 0 ? 0.8f : 0.4f));
     }
@@ -649,15 +653,14 @@ double handle_stiffness(double length)
     return core_round(stiffness, 0.05 * stiffness);
 }
 
-void curves_handle(const struct curves *curves, const struct core *core, const struct knot *knot, int end,
-                   float xy[2])
+void curves_handle(const struct core *core, const struct knot *knot, int end, float xy[2])
 {
-    double across = curves_pixels_per_frame(curves, core) * core->document->fps; /* pixels a second */
-    double down = -curves_pixels_per_value(curves, core) * knot->slope;
+    double across = curves_pixels_per_frame(core) * core->document->fps; /* pixels a second */
+    double down = -curves_pixels_per_value(core) * knot->slope;
     double length = maths_hypot(across, down);
     double factor = (end ? 1 : -1) * handle_length(knot->stiffness) / (isfinite(length) && length > 0 ? length : 1);
-    xy[0] = curves_knot_x(curves, core, knot) + (float)fmin(fmax(across * factor, -1e3), 1e3);
-    xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
+    xy[0] = curves_knot_x(core, knot) + (float)fmin(fmax(across * factor, -1e3), 1e3);
+    xy[1] = curves_y(core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
 }
 
 static void hover_ring(struct drawlist *list, const float middle[2])
@@ -691,9 +694,9 @@ static bool is_hovered(const struct core *core, const struct knot *knot)
 }
 
 /// A knot's pixel column, counted from the scene's first frame so that panning does not regroup knots.
-static double column_of(const struct curves *curves, const struct core *core, const struct knot *knot)
+static double column_of(const struct core *core, const struct knot *knot)
 {
-    const double pixels = curves_pixels_per_frame(curves, core) / core->document->substeps; // of a sample
+    const double pixels = curves_pixels_per_frame(core) / core->document->substeps; // of a sample
     return floor(document_sample(core->document, knot->frame) * pixels);
 }
 
@@ -706,13 +709,13 @@ static void show_active_knots(const struct curves *curves, struct core *core)
     uint32_t color = spline_list_color(document, core->focus.active);
     if (!spline) return;
     const struct knot *knots = spline->knots;
-    int k = curves_knot_from(curves, core, spline, plot->x - HANDLE_REACH);
+    int k = curves_knot_from(core, spline, plot->x - HANDLE_REACH);
     for (int end; k < spline->knot_count; k = end) {
-        const float x = curves_knot_x(curves, core, &knots[k]);
-        const double column = column_of(curves, core, &knots[k]);
+        const float x = curves_knot_x(core, &knots[k]);
+        const double column = column_of(core, &knots[k]);
         int shown = k;
         if (x > plot->x + plot->w + HANDLE_REACH) break;
-        for (end = k + 1; end < spline->knot_count && column_of(curves, core, &knots[end]) == column;) end++;
+        for (end = k + 1; end < spline->knot_count && column_of(core, &knots[end]) == column;) end++;
         for (int i = k; i < end && !is_hovered(core, &knots[shown]); i++) {
             const bool better = selection_has(&core->focus.selection, knots[i].id) &&
                                 !selection_has(&core->focus.selection, knots[shown].id);
@@ -721,12 +724,12 @@ static void show_active_knots(const struct curves *curves, struct core *core)
         // In a band most columns get no mark: marks so close would cover each other.
         if (curves->cache.band && !is_hovered(core, &knots[shown]) &&
             !selection_has(&core->focus.selection, knots[shown].id) && fmod(column, MARK_STEP) != 0 && k > 0 &&
-            column - column_of(curves, core, &knots[k - 1]) <= MARK_STEP)
+            column - column_of(core, &knots[k - 1]) <= MARK_STEP)
             continue;
         if (!curves->cache.band) { // a stroke over the values of all, for those without a mark
             double range[2];
             spline_values(spline, k, end, range);
-            const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
+            const float xy[] = {x, curves_y(core, range[0]), x, curves_y(core, range[1])};
             if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
         }
 
@@ -735,8 +738,8 @@ static void show_active_knots(const struct curves *curves, struct core *core)
         const bool selected = selection_has(&core->focus.selection, knot->id);
         float ends[2][2];
         for (int i = 0; i < 2 && knot->has_slope; i++) {
-            curves_handle(curves, core, knot, i, ends[i]);
-            const float own[2] = {curves_knot_x(curves, core, knot), curves_y(curves, core, knot->value)};
+            curves_handle(core, knot, i, ends[i]);
+            const float own[2] = {curves_knot_x(core, knot), curves_y(core, knot->value)};
             for (int n = 0; n < 2 && !selected; n++) ends[i][n] = own[n] + 0.3f * (ends[i][n] - own[n]);
         }
         if (knot->has_slope)
@@ -763,10 +766,10 @@ void knots_show(const struct curves *curves, struct core *core, int s, float row
     const bool on_sheet = !isnan(row);
     const float margin = on_sheet ? MARK_RADIUS + 1 : 0;
     float end = -INFINITY; // of the last mark
-    for (int k = curves_knot_from(curves, core, spline, plot->x - margin); k < spline->knot_count; k++) {
+    for (int k = curves_knot_from(core, spline, plot->x - margin); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         const bool selected = selection_has(&core->focus.selection, knot->id);
-        const float x = curves_knot_x(curves, core, knot);
+        const float x = curves_knot_x(core, knot);
         if (x < end && !selected && !is_hovered(core, knot)) continue; // where knots are crowded these show
         const float middle[2] = {x, on_sheet ? row : curves_knot_y(curves, core, s, knot)};
         end = x + CROWDED;
@@ -837,13 +840,13 @@ void curves_show(struct curves *curves, struct core *core)
     const struct spline *spline = core_active_spline(core), *visible = spline_list_seen(core);
     struct rect clip = drawlist_push_clip(&core->list, core->view.layout.curves);
     curves_update(curves, core);
-    grid_show(curves, core);
+    grid_show(core);
     struct rect panel = drawlist_push_clip(&core->list, *plot);
     for (int i = 0; visible && i < 2; i++) {
         const double limit = visible->parameter[i ? PARAMETER_HIGH : PARAMETER_LOW].value;
         if (!isfinite(limit)) continue;
         const bool hot = core->input.hover.thing == &thing_limit && core->input.hover.handle == i;
-        const float y = curves_y(curves, core, limit), line[] = {plot->x, y, plot->x + plot->w, y};
+        const float y = curves_y(core, limit), line[] = {plot->x, y, plot->x + plot->w, y};
         drawlist_dashed(&core->list, line, 2, hot ? 2 : 1.25f, 10, 6,
                         theme_fade(spline_list_color(document, core->focus.active), hot ? 1 : 0.6f));
     }
@@ -886,9 +889,9 @@ void curves_show(struct curves *curves, struct core *core)
     show_labels(curves, core);
 
     // The playhead comes last, so that playing redraws nothing before it.
-    const struct rect tag = playhead_tag(curves, core);
+    const struct rect tag = playhead_tag(core);
     if (tag.w > 0) {
-        const float x = curves_x(curves, core, core_frame(core));
+        const float x = curves_x(core, core_frame(core));
         tag_text(core, frame);
         drawlist_rect(&core->list, (struct rect){x - 0.5f, sheet->y, 1, sheet->h + plot->h}, theme()->playhead);
         drawlist_rounded(&core->list, tag, 3, theme()->playhead);
@@ -903,7 +906,7 @@ void curves_show(struct curves *curves, struct core *core)
         const bool hot = core->input.hover.thing == &thing_pin_time && core->input.hover.pin == pin->id;
         const float radius = RADIUS + (selected || hot ? 1 : 0);
         float xy[2];
-        place_pin(curves, core, pin, xy);
+        place_pin(core, pin, xy);
         if (xy[0] < ruler->x || xy[0] > ruler->x + ruler->w) continue;
         drawlist_disc(&core->list, xy, radius, selected ? theme()->playhead : color);
         drawlist_circle(&core->list, xy, radius, 1, selected || hot ? color : theme()->panel);

@@ -28,12 +28,6 @@ struct dope_sheet {
     unsigned active; ///< id of the spline last scrolled into view
 };
 
-/// Visible part of the curves panel.
-struct plotted {
-    double frame0, frame1; ///< at the plot's left and right edge
-    double value0, value1; ///< at its bottom and top edge
-};
-
 /// The view's animation towards an edit.
 struct following {
     bool moves;
@@ -138,7 +132,6 @@ struct ghost {
 };
 
 struct curves {
-    struct plotted view;
     struct following following;
     struct dope_sheet sheet;
     struct selection before_box; ///< the selection before a box was drawn
@@ -156,18 +149,17 @@ struct curves {
 };
 
 /// Frame to logical pixels, clamped to a few thousand around the plot.
-float curves_x(const struct curves *curves, const struct core *core, double frame);
+float curves_x(const struct core *core, double frame);
 /// Value to logical pixels, clamped likewise.
-float curves_y(const struct curves *curves, const struct core *core, double value);
+float curves_y(const struct core *core, double value);
 /// A place in the plot; false if it is not visible.
-bool curves_in_plot(const struct curves *curves, const struct core *core, double frame, double value, float xy[2]);
+bool curves_in_plot(const struct core *core, double frame, double value, float xy[2]);
 /// Position of a slope handle's end: before (0) or after (1) the knot.
-void curves_handle(const struct curves *curves, const struct core *core, const struct knot *knot, int end,
-                   float xy[2]);
-double curves_pixels_per_frame(const struct curves *curves, const struct core *core);
-double curves_pixels_per_value(const struct curves *curves, const struct core *core);
-double curves_frame(const struct curves *curves, const struct core *core, double x);
-double curves_value(const struct curves *curves, const struct core *core, double y);
+void curves_handle(const struct core *core, const struct knot *knot, int end, float xy[2]);
+double curves_pixels_per_frame(const struct core *core);
+double curves_pixels_per_value(const struct core *core);
+double curves_frame(const struct core *core, double x);
+double curves_value(const struct core *core, double y);
 
 /// How a spline's values are drawn.
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);
@@ -179,10 +171,10 @@ int curves_other(const struct curves *curves, const struct document *document, i
 /// Copies the active curve before a drag's first edit, to show it behind.
 void keep_ghost(struct curves *curves, const struct core *core);
 /// A knot's x in logical pixels: that of its sample.
-float curves_knot_x(const struct curves *curves, const struct core *core, const struct knot *knot);
+float curves_knot_x(const struct core *core, const struct knot *knot);
 
 /// Index of the first knot at or right of an x, or of the knot before that one; the number of knots if there is none.
-int curves_knot_from(const struct curves *curves, const struct core *core, const struct spline *spline, double x);
+int curves_knot_from(const struct core *core, const struct spline *spline, double x);
 
 extern const struct thing thing_knot, thing_mark, thing_slope, thing_curve, thing_active_curve, thing_box,
     thing_warning, thing_limit, thing_row, thing_ruler, thing_units, thing_sheet, thing_pin_time;
@@ -203,7 +195,7 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
                    struct hover *hover);
 
 /// The pin mark at a point of the ruler.
-struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y);
+struct hover ruler_pins_hover(const struct core *core, float x, float y);
 
 /// The dope sheet's rows with their names.
 struct rect sheet_area(const struct core *core);

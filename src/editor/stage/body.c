@@ -806,7 +806,7 @@ void body_drag_show(struct stage *stage, struct core *core)
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right of the screen over the near half
-        float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
+        float angle = 6.2831853f * (float)i / RING_POINTS - core->view.camera.azimuth;
         const float place[3] = {stand.middle[0] - stand.radius * maths_sinf(-angle), stand.ground,
                                 stand.middle[1] - stand.radius * maths_cosf(-angle)};
         if (!stage_project_point(stage, core->view.layout.stage, place, point[i])) return;
@@ -882,7 +882,7 @@ void press_body(void *room, struct core *core, const struct hover *hover, const 
     struct stage *stage = room;
     const int rig = hover->thing == &thing_bone ? hover->model : hover->rig;
     struct body_drag *hold = &stage->body_drag;
-    const struct camera *camera = &stage->camera;
+    const struct camera *camera = &core->view.camera;
     struct stand stand = {.radius = 0};
     drag_begin(core, &body_owner, stage, "Move body", event);
     *hold = (struct body_drag){.rig = rig, .axis = -1};

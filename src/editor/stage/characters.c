@@ -269,7 +269,7 @@ static void press_floor(void *room, struct core *core, const struct hover *hover
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = move_floor, .end = stage_click};
     const struct character_rig *rig = &core->document->rigs[hover->rig]->character;
     const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
-    const double rise = fmax(maths_cos((double)stage->camera.elevation), LEAST_RISE);
+    const double rise = fmax(maths_cos((double)core->view.camera.elevation), LEAST_RISE);
     core->input.hover = *hover;
     drag_begin(core, &owner, stage, "Set floor", event);
     stage->floor_drag = (struct floor_drag){
@@ -514,7 +514,7 @@ static void paint_stroke(void *room, struct core *core)
     // The surface points under the pointer's path since the last frame.
     const float radius = radius_of(&core->focus.brush, figure);
     const float dx = core->input.pointer_x - painting->x, dy = core->input.pointer_y - painting->y;
-    const float metres = 2 * stage->camera.distance / stage->view.projection[5] / core->view.layout.stage.h;
+    const float metres = 2 * core->view.camera.distance / stage->view.projection[5] / core->view.layout.stage.h;
     const float stride = fmaxf(1, STRIDE * radius / metres);
     const int steps = (int)fminf(REACH_MAX_SPOTS, fmaxf(1, ceilf(maths_hypotf(dx, dy) / stride)));
     for (int i = 1; i <= steps; i++) {

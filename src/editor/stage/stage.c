@@ -85,7 +85,6 @@ struct stage *stage_create(const struct core *core)
 {
     struct stage *stage = need_zeroed(1, sizeof *stage);
     stage->core = core;
-    stage->camera = camera_default();
     return stage;
 }
 
@@ -139,15 +138,15 @@ static const float ORBIT_SPEED = 0.008f; ///< radians per pixel
 
 static void orbit_stage(void *room, struct core *core)
 {
-    struct stage *stage = room;
-    camera_orbit(&stage->camera, -(float)core->input.drag.moved_x * ORBIT_SPEED,
+    (void)room;
+    camera_orbit(&core->view.camera, -(float)core->input.drag.moved_x * ORBIT_SPEED,
                  (float)core->input.drag.moved_y * ORBIT_SPEED);
 }
 
 static void pan_stage(void *room, struct core *core)
 {
-    struct stage *stage = room;
-    camera_pan(&stage->camera, (float)core->input.drag.moved_x, (float)core->input.drag.moved_y,
+    (void)room;
+    camera_pan(&core->view.camera, (float)core->input.drag.moved_x, (float)core->input.drag.moved_y,
                core->view.layout.stage.h);
 }
 
@@ -223,15 +222,15 @@ static const struct thing somewhere = {.name = "stage", .numbers = 2, .find = fi
 const struct thing *const stage_things[] = {&thing_tail, &thing_chain, &thing_bone, &thing_body, &thing_point,
                                             &thing_pin,  &thing_floor, &somewhere,  &beside,     NULL};
 
-void stage_wheel(struct stage *stage, struct core *core, const struct event *event)
+void stage_wheel(struct core *core, const struct event *event)
 {
     if (brush_wheel(core, event)) return;
     const struct rect *r = &core->view.layout.stage;
-    const float before = stage->camera.distance;
-    camera_zoom(&stage->camera, (float)maths_exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
-    const float share = 1 - before / stage->camera.distance; // the place under the pointer stays there
-    camera_pan(&stage->camera, share * (event->x - r->x - r->w / 2), share * (event->y - r->y - r->h / 2), r->h);
-    stage_orbit(stage, TURN_STEP * (float)fmin(fmax(event->dx, -20), 20), 0);
+    const float before = core->view.camera.distance;
+    camera_zoom(&core->view.camera, (float)maths_exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
+    const float share = 1 - before / core->view.camera.distance; // the place under the pointer stays there
+    camera_pan(&core->view.camera, share * (event->x - r->x - r->w / 2), share * (event->y - r->y - r->h / 2), r->h);
+    camera_orbit(&core->view.camera, TURN_STEP * (float)fmin(fmax(event->dx, -20), 20), 0);
 }
 
 void stage_advance(struct stage *stage, struct core *core, double dt)
@@ -316,7 +315,7 @@ struct rect stage_figure(const struct stage *stage, const struct core *core)
                          figure->w * place->h, figure->h * place->h};
 }
 
-void stage_fit(struct stage *stage, const struct core *core)
+void stage_fit(struct stage *stage, struct core *core)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     const struct document *document = core->document;
@@ -338,34 +337,34 @@ void stage_fit(struct stage *stage, const struct core *core)
             seen[document->rigs[r]->kind] = any = true;
         }
     }
-    stage->camera = camera_default();
+    core->view.camera = camera_default();
     if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
-        stage->camera.azimuth = core->view.on[SWITCH_TWIN] ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+        core->view.camera.azimuth = core->view.on[SWITCH_TWIN] ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     else if (seen[RIG_MODEL] && !seen[RIG_TAIL]) { // as the first one stands
         const int rig = document_next_rig(document, RIG_MODEL, -1);
         const struct imported *first = models_imported(core->models, document, rig);
         float back[2];
-        stage->camera.azimuth =
+        core->view.camera.azimuth =
             first && imported_back(first, back) ? maths_atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH_OF_ONE;
     }
-    camera_lamp(&stage->camera, stage->view.key_from); // fixed while the camera orbits
+    camera_lamp(&core->view.camera, stage->view.key_from); // fixed while the camera orbits
     stage->figure = (struct rect){0};
     if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     const struct rect place = core->view.layout.stage;
     const float caption = core->view.plain ? 0 : caption_height(place, document);
-    camera_fit(&stage->camera, lo, hi, place.w / place.h, caption / place.h);
+    camera_fit(&core->view.camera, lo, hi, place.w / place.h, caption / place.h);
 
     // Where the motion is in the picture, from the stage's middle in stage heights.
     const struct rect unit = {-0.5f * place.w / place.h, -0.5f, place.w / place.h, 1};
     struct stage_view *view = &stage->view;
-    camera_matrices(&stage->camera, unit.w, view->view, view->projection, view->eye);
+    camera_matrices(&core->view.camera, unit.w, view->view, view->projection, view->eye);
     stage_project_box(stage, unit, lo, hi, &stage->figure);
 }
 
 static const float AROUND = 0.15f; ///< of its largest side: room about what is framed
 
-void stage_frame(struct stage *stage, const struct core *core)
+void stage_frame(struct stage *stage, struct core *core)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
     const int rig = overlay_rig(stage, core);
@@ -386,14 +385,10 @@ void stage_frame(struct stage *stage, const struct core *core)
         lo[k] -= AROUND * widest;
         hi[k] += AROUND * widest;
     }
-    const float floor = stage->camera.floor;
-    camera_fit(&stage->camera, lo, hi, core->view.layout.stage.w / core->view.layout.stage.h, 0);
-    stage->camera.floor = floor;
+    const float floor = core->view.camera.floor;
+    camera_fit(&core->view.camera, lo, hi, core->view.layout.stage.w / core->view.layout.stage.h, 0);
+    core->view.camera.floor = floor;
 }
-
-void stage_orbit(struct stage *stage, float across, float up) { camera_orbit(&stage->camera, across, up); }
-
-void stage_approach(struct stage *stage, float factor) { camera_zoom(&stage->camera, factor); }
 
 void stage_pose(struct stage *stage, struct core *core, bool covered)
 {
@@ -412,8 +407,8 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     view->has_tail = stage->tail_count > 0;
     view->viewport = core->view.layout.stage;
     view->colors = theme()->stage;
-    camera_reshape(&stage->camera, view->viewport.w / view->viewport.h);
-    camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
+    camera_reshape(&core->view.camera, view->viewport.w / view->viewport.h);
+    camera_matrices(&core->view.camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = stage_scenery_hash(view);
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         if (kinds[kind]->hash) view->hash = kinds[kind]->hash(view->hash, view);

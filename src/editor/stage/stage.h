@@ -22,15 +22,11 @@ void stage_open(struct stage *stage);
 /// The rigs of the stage, as last posed.
 const struct stage_view *stage_seen(const struct stage *stage);
 /// Resets the camera to show everything.
-void stage_fit(struct stage *stage, const struct core *core);
+void stage_fit(struct stage *stage, struct core *core);
 /// Shows the selected bone and those to its tip, else the tail or chain of the active spline, else everything.
-void stage_frame(struct stage *stage, const struct core *core);
+void stage_frame(struct stage *stage, struct core *core);
 /// Where the scene moves on the screen, as first seen; empty without rigs.
 struct rect stage_figure(const struct stage *stage, const struct core *core);
-/// Turns the camera about its target, radians.
-void stage_orbit(struct stage *stage, float across, float up);
-/// Moves closer (factors below 1) or away.
-void stage_approach(struct stage *stage, float factor);
 /// Poses everything after the solve. `covered`: something lies over the panels.
 void stage_pose(struct stage *stage, struct core *core, bool covered);
 /// Draws the overlays.
@@ -40,7 +36,7 @@ struct hover stage_hover(struct stage *stage, const struct core *core, float x, 
 /// A press on the stage.
 void stage_press(struct stage *stage, struct core *core, const struct event *event);
 /// The wheel over the stage.
-void stage_wheel(struct stage *stage, struct core *core, const struct event *event);
+void stage_wheel(struct core *core, const struct event *event);
 /// Moves the selected pin parallel to the screen by steps of 1 % of the view.
 void stage_nudge_pin(struct stage *stage, struct core *core, double right, double up);
 /// Pins the point under the pointer; else the selected pin's point at the playhead; else a tip, or the vertex that moves most.

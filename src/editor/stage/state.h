@@ -189,7 +189,6 @@ struct painting {
 struct stage {
     const struct core *core;
     struct stage_view view;
-    struct camera camera;
     struct rect figure;                             ///< see stage_figure(); from the stage's middle, in stage heights
     struct shown_strand strands[STAGE_MAX_STRANDS]; ///< tails, then chains
     int strand_count, tail_count;
