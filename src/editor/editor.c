@@ -58,6 +58,7 @@ void editor_destroy(struct editor *editor)
     free(editor->core.view.hidden.bits);
     free(editor->core.view.solo.bits);
     free(editor->core.clipboard);
+    free(editor->core.step.seen);
     free(editor->core.step.originals.list);
     free(editor->core.step.pressed.list);
     free(editor);
@@ -101,11 +102,14 @@ static void end_event(struct editor *editor)
     struct core *core = &editor->core;
     core_close(core);
     if (editor->seen.serial != core->serial) open_panels(editor);
+    const bool returned = core->view.returned;
+    core->view.returned = false;
+    if (returned) curves_open(editor->curves); // the view follows no edit
     if (editor->seen.active == core->focus.active_id) return;
     const int before = document_find_spline_id(editor->core.document, editor->seen.active);
     editor->seen.active = core->focus.active_id;
     if (core->focus.active < 0) return;
-    if (before >= 0) curves_activate(editor->curves, core, before);
+    if (before >= 0 && !returned) curves_activate(editor->curves, core, before);
     inspector_show_spline(editor->inspector, core->focus.active);
 }
 

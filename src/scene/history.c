@@ -14,6 +14,7 @@ struct state {
     uint64_t merge;
     uint64_t number; ///< unique
     size_t bytes;    ///< replaced by the step
+    void *seen[2];   ///< as the step began and ended, by history_see()
 };
 
 struct history {
@@ -31,12 +32,19 @@ struct history {
     unsigned next_id; ///< the document's next id when the open step began
 };
 
+static void forget(const struct state *state)
+{
+    document_destroy(state->document);
+    free(state->seen[0]);
+    free(state->seen[1]);
+}
+
 /// Forgets the states from an index on.
 static void forget_from(struct history *history, size_t first)
 {
     for (size_t i = first; i <= history->step_count; i++) {
         history->bytes -= history->states[i].bytes;
-        document_destroy(history->states[i].document);
+        forget(&history->states[i]);
     }
 }
 
@@ -104,17 +112,16 @@ void history_restart(struct history *history)
     history->document->next_id = history->next_id; // so that an object inserted again gets the same id
 }
 
-void history_end(struct history *history)
+bool history_end(struct history *history)
 {
     assert(history->is_open);
-    if (!has_changed(history)) {
-        history->is_open = false;
-        return;
-    }
+    if (!has_changed(history)) return history->is_open = false;
     // A saved state stays separate, so that undo can return to it.
-    const struct state *last = current(history);
+    struct state *last = current(history);
     const bool joins = history->done > 0 && history->can_merge && history->merge != 0 &&
                        last->merge == history->merge && last->number != history->saved_number;
+    void *began = joins ? last->seen[0] : NULL;
+    if (joins) last->seen[0] = NULL;
     forget_from(history, history->done + (joins ? 0 : 1));
     document_destroy(history->left);
     history->left = NULL;
@@ -127,6 +134,7 @@ void history_end(struct history *history)
     const struct state next = {.document = document_copy(history->document),
                                .label = history->label,
                                .merge = history->merge,
+                               .seen = {began},
                                .number = ++history->last_number,
                                .bytes = sizeof next +
                                         document_bytes_beside(current(history)->document, history->document)};
@@ -137,11 +145,11 @@ void history_end(struct history *history)
     history->is_open = false;
 
     // The oldest steps go while they exceed the limit, an eighth at a time, so that the others rarely move.
-    if (history->bytes <= history->limit) return;
+    if (history->bytes <= history->limit) return true;
     const size_t room = history->limit - history->limit / 8;
     size_t drop = 0;
     while (drop + 1 < history->step_count && history->bytes > room) {
-        document_destroy(history->states[drop].document);
+        forget(&history->states[drop]);
         history->bytes -= history->states[++drop].bytes;
         history->states[drop].bytes = 0;
     }
@@ -150,6 +158,22 @@ void history_end(struct history *history)
     history->done -= drop;
     memmove(history->states, history->states + drop, (history->step_count + 1) * sizeof *history->states);
     history->states[0].label = NULL;
+    return true;
+}
+
+void history_see(struct history *history, void *began, void *ended)
+{
+    struct state *state = current(history);
+    free(state->seen[0] ? began : NULL);
+    if (!state->seen[0]) state->seen[0] = began;
+    free(state->seen[1]);
+    state->seen[1] = ended;
+}
+
+const void *history_seen(const struct history *history, bool undone)
+{
+    if (!undone) return current(history)->seen[1];
+    return history->done < history->step_count ? current(history)[1].seen[0] : NULL;
 }
 
 bool history_is_open(const struct history *history) { return history->is_open; }

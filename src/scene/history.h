@@ -23,8 +23,12 @@ void history_clear(struct history *history, struct document *document);
 void history_begin(struct history *history, const char *label, uint64_t merge);
 /// Reverts the edits of the open step, which stays open: for the next frame of a drag, or for Esc before history_end().
 void history_restart(struct history *history);
-/// Closes the step. A step without changes is dropped.
-void history_end(struct history *history);
+/// Closes the step. A step without changes is dropped; then it returns false.
+bool history_end(struct history *history);
+/// Gives the last step what the user saw as it began and ended, both freed by free(). A joined step keeps its first beginning.
+void history_see(struct history *history, void *began, void *ended);
+/// As the last undone step began, or as the last done one ended; NULL: nothing is known.
+const void *history_seen(const struct history *history, bool undone);
 /// Whether a step is open.
 bool history_is_open(const struct history *history);
 /// The document as it was before the open step, or is if none is open.

@@ -18,3 +18,23 @@ SESSION_TEST(test_pause_stops_on_a_frame, panel_open(s, scene, 1280, 720))
         session_key(s, KEY_SPACE, 0);
     }
 }
+
+/// Undo gives back what was selected and in sight as the step began, redo as it ended.
+SESSION_TEST(test_undo_returns_to_the_place, panel_open(s, scene, 1280, 720))
+{
+    session_click(s, "knot(sway,1)");
+    const unsigned id = s->document->splines[0]->knots[1].id;
+    const struct plotted plot = *plot_of(s->editor);
+    const struct camera camera = *camera_of(s->editor);
+    session_key(s, KEY_DELETE, 0);
+    assert_int_equal(selected(s->editor), 0);
+    session_key(s, KEY_UP, MOD_CTRL | MOD_SHIFT); // orbits
+    *plot_of(s->editor) = (struct plotted){50, 60, 7, 8};
+    session_key(s, 'Z', MOD_CTRL);
+    assert_int_equal(selected(s->editor), 1);
+    assert_true(selection_has(selection_of(s->editor), id));
+    assert_memory_equal(plot_of(s->editor), &plot, sizeof plot);
+    assert_memory_equal(camera_of(s->editor), &camera, sizeof camera);
+    session_key(s, 'Y', MOD_CTRL);
+    assert_int_equal(selected(s->editor), 0);
+}

@@ -32,7 +32,6 @@ void core_open(struct core *core)
     core->focus.bone.any = false;
     core->focus.pin.any = false;
     core->focus.pick = (struct bone_pick){0};
-    memset(core->focus.recent, 0, sizeof core->focus.recent);
 
     // The first spline that moves something, with its rig as the limb, else the first.
     core->focus.limb = 0;
@@ -93,11 +92,65 @@ void core_edited(struct core *core, int spline)
     if (spline >= 0 && edited->count < CORE_MAX_EDITED) edited->spline[edited->count++] = spline;
 }
 
+/// What belongs to an undo step beside its edits.
+struct seen {
+    unsigned active_id, limb;
+    struct pin_selection pin;
+    struct bone_selection bone;
+    struct plotted plot;
+    struct camera camera;
+    int count;
+    unsigned selected[]; ///< ids of knots
+};
+
+/// What is selected and in sight now. The caller frees it.
+static struct seen *see(const struct core *core)
+{
+    struct seen *seen = need_zeroed(1, sizeof *seen + (size_t)selected_count(core) * sizeof seen->selected[0]);
+    seen->active_id = core->focus.active_id;
+    seen->limb = core->focus.limb;
+    seen->pin = core->focus.pin;
+    seen->bone = core->focus.bone;
+    seen->plot = core->view.plot;
+    seen->camera = core->view.camera;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);)
+        seen->selected[seen->count++] = knot_at(core->document, at)->id;
+    return seen;
+}
+
+/// After undo or redo: selects and shows what belonged to the step.
+static void see_again(struct core *core, bool undone)
+{
+    const struct seen *seen = history_seen(core->history, undone);
+    if (seen) core->focus.active_id = seen->active_id;
+    core_refresh(core);
+    if (!seen) return;
+    core->focus.limb = seen->limb;
+    core->focus.pin = seen->pin;
+    core->focus.bone = seen->bone;
+    core->view.plot = seen->plot;
+    core->view.camera = seen->camera;
+    core->view.returned = true;
+    selection_clear(&core->focus.selection);
+    for (int i = 0; i < seen->count; i++) selection_set(&core->focus.selection, seen->selected[i], true);
+}
+
+void core_end(struct core *core)
+{
+    if (history_end(core->history)) {
+        history_see(core->history, core->step.seen, see(core));
+    } else {
+        free(core->step.seen);
+    }
+    core->step.seen = NULL;
+}
+
 bool core_step(struct core *core, const char *label, uint64_t merge)
 {
     core_close(core);
     if (history_is_open(core->history)) return false;
     history_begin(core->history, label, merge);
+    core->step.seen = see(core);
     core->step.ends = true;
     core->step.error = (struct error){0};
     core->message = (struct message){0};
@@ -127,7 +180,7 @@ void core_close(struct core *core)
     } else {
         history_restart(core->history);
     }
-    history_end(core->history);
+    core_end(core);
     core_settle(core);
 }
 
@@ -201,20 +254,6 @@ void core_refresh(struct core *core)
     core->focus.pick = (struct bone_pick){0};
 }
 
-/// If undo removed the active spline, the previously active one becomes active.
-static void return_to_active(struct core *core)
-{
-    const struct document *document = core->document;
-    const bool gone = document_find_spline_id(document, core->focus.active_id) < 0;
-    for (int r = 0; r < CORE_MAX_RECENT && gone; r++) {
-        if (core->focus.recent[r] == 0 || document_find_spline_id(document, core->focus.recent[r]) < 0) continue;
-        core->focus.active_id = core->focus.recent[r];
-        selection_clear(&core->focus.selection);
-        break;
-    }
-    core_refresh(core);
-}
-
 void core_undo(struct core *core, int direction)
 {
     struct history *history = core->history;
@@ -230,7 +269,7 @@ void core_undo(struct core *core, int direction)
     } else {
         history_redo(history);
     }
-    return_to_active(core);
+    see_again(core, direction < 0);
 }
 
 void core_jump(struct core *core, size_t done)
@@ -238,7 +277,7 @@ void core_jump(struct core *core, size_t done)
     if (history_is_open(core->history)) return;
     size_t before = history_done(core->history), steps = before > done ? before - done : done - before;
     if (!history_jump(core->history, done)) return;
-    return_to_active(core);
+    see_again(core, before > done);
     core_message(core, false, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
 }
 
@@ -308,8 +347,6 @@ struct spline *core_active_spline(const struct core *core)
 void core_turn_to(struct core *core, int spline)
 {
     if (spline == core->focus.active || spline < 0 || spline >= core->document->spline_count) return;
-    memmove(core->focus.recent + 1, core->focus.recent, (CORE_MAX_RECENT - 1) * sizeof *core->focus.recent);
-    core->focus.recent[0] = core->focus.active_id;
     core->focus.active = spline;
     core->focus.active_id = core->document->splines[spline]->id;
 }

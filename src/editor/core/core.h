@@ -17,6 +17,8 @@ void core_edited(struct core *core, int spline);
 bool core_step(struct core *core, const char *label, uint64_t merge);
 /// Closes the step of this event, if any. The editor calls it; a drag's step stays open.
 void core_close(struct core *core);
+/// Closes the open step, with what is seen at its end.
+void core_end(struct core *core);
 /// Call after edits in a drag: the editor follows the document, and core->step.error goes to the status line.
 void core_settle(struct core *core);
 /// Call after edits in an open step: of each spline that winds up and whose knots have changed, the next free knot becomes a pose with the phase

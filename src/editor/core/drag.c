@@ -100,7 +100,7 @@ void drag_end(struct core *core, bool keep)
         if (!keep) drag_restart(core);
         if (!keep) selection_drop_from(&core->focus.selection, core->document->next_id);
         if (!keep && core->focus.pin.id >= core->document->next_id) pins_clear(core);
-        history_end(core->history);
+        core_end(core);
         core_settle(core); // dragging a body may have added the first splines
     }
     *drag = (struct drag){0};

@@ -15,7 +15,7 @@
 #include "ui/stage.h"
 #include <stdint.h>
 
-enum { CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
+enum { STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
 
 /// The panels' rectangles in logical pixels, from core_layout().
 struct layout {
@@ -283,15 +283,15 @@ struct step {
     struct originals pressed; ///< the free knots as it began, with the phases they had
     struct originals originals;
     struct edited edited;
+    struct seen *seen;     ///< as it began
     double nudged_seconds; ///< remaining time of a nudged knot's ghost
 };
 
 /// What keys and commands act on.
 struct focus {
-    int active;                       ///< spline, or -1
-    unsigned active_id;               ///< its id, to find it when the list changes
-    unsigned recent[CORE_MAX_RECENT]; ///< ids of previously active splines, the latest first
-    unsigned limb;                    ///< id of the rig chosen last, see core_limb(); 0: a spline was
+    int active;         ///< spline, or -1
+    unsigned active_id; ///< its id, to find it when the list changes
+    unsigned limb;      ///< id of the rig chosen last, see core_limb(); 0: a spline was
     struct selection selection;
     struct pin_selection pin;
     struct bone_selection bone;
@@ -333,6 +333,7 @@ struct view {
     struct camera camera;          ///< of the stage
     bool plain;                    ///< the stage without text
     bool refit_stage;              ///< editor_pose() fits the camera: what an edit adds has no place before
+    bool returned;                 ///< undo gave back plot and camera
     bool refit_curves;             ///< it shows all curves: they have no values before the solve
 };
 
