@@ -38,3 +38,28 @@ SESSION_TEST(test_undo_returns_to_the_place, panel_open(s, scene, 1280, 720))
     session_key(s, 'Y', MOD_CTRL);
     assert_int_equal(selected(s->editor), 0);
 }
+
+/// A drag beyond the edge widens the view about the pointer: what lies under it stays there.
+SESSION_TEST(test_zoom_stays_under_the_pointer, panel_open(s, scene, 1280, 720))
+{
+    const struct plotted before = *plot_of(s->editor) = (struct plotted){-2, 102, -0.4, 1.2};
+    session_frame(s);
+    session_pull(s, "knot(sway,0)", 0, -40, 6);
+    session_release(s, BUTTON_LEFT);
+    for (int i = 0; i < 60; i++) session_frame(s);
+    float xy[2];
+    session_where(s, "knot(sway,0)", xy);
+    assert_near(xy[0], s->x, 1);
+    assert_near(xy[1], s->y, 1);
+    assert_true(plot_of(s->editor)->value0 < before.value0);
+}
+
+/// Whatever is edited, some of the active curve stays in sight.
+SESSION_TEST(test_edits_keep_the_curve_in_sight, panel_open(s, scene, 1280, 720))
+{
+    *plot_of(s->editor) = (struct plotted){0, 100, 50, 51};
+    session_key(s, 'A', MOD_CTRL);
+    session_key(s, KEY_DELETE, 0);
+    for (int i = 0; i < 60; i++) session_frame(s);
+    assert_true(plot_of(s->editor)->value0 < 0);
+}

@@ -161,13 +161,16 @@ void curves_frame_all(struct curves *curves, struct core *core)
     }
     show_values(view, &part);
 
-    // The phase curve and the equilibrium of the active spline.
+    // The active spline's equilibrium, phase curve and copies.
+    double turn[CURVES_FAN][2];
+    const int copies = core->focus.active >= 0 ? curves_fan(core, turn) : 0;
     const double last = document_samples(document) - 1;
     part = *view;
     for (int column = 0; column <= COLUMNS && core->focus.active >= 0; column++) {
         const wiggly_value v = evaluation_at(core->evaluation, core->focus.active, last * column / COLUMNS);
         include_value(&part, v.y);
         include_value(&part, v.y + v.im);
+        for (int i = 0; i < copies; i++) include_value(&part, v.y + turn[i][0] * v.re + turn[i][1] * v.im);
     }
     const double more = 0.06 * (part.value1 - part.value0);
     const double margin = fmax(0.02 * (document->last_frame - document->first_frame), 0.5);
@@ -288,21 +291,36 @@ static const double RATE = 14;     ///< share of the remaining distance per seco
 static const double CLOSE = 0.25;  ///< pixels: close enough to stop
 static const double MARGIN = 0.06; ///< of the view, around the edit
 static const double WIDEST = 1.7;  ///< of the visible frames; further edits pan instead
+static const double MOST = 4;      ///< the same about the pointer, which may lie at an edge
 
-/// Widens the view to the edit, or pans if that would be too wide.
-static void widen(double *low, double *high, const double part[2], double widest)
+/// Widens the view to the edit about what is under the pointer (NAN: it is elsewhere), or pans if that would be too wide.
+static void widen(double *low, double *high, const double part[2], double widest, double pointed)
 {
     const double least = fmin(*low, part[0]), most = fmax(*high, part[1]), span = *high - *low;
     if (least >= *low && most <= *high) return;
     const double margin = MARGIN * (most - least);
+    const double below = least < *low ? pointed - least + margin : 0,
+                 above = most > *high ? most + margin - pointed : 0;
+    const double by = fmax(below / (pointed - *low), above / (*high - pointed));
+    if (pointed > *low && pointed < *high && by <= fmin(widest, MOST)) {
+        *low = pointed - by * (pointed - *low);
+        *high = pointed + by * (*high - pointed);
+        return;
+    }
     if (most - least <= widest * span) {
         if (least < *low) *low = least - margin;
         if (most > *high) *high = most + margin;
         return;
     }
-    const double by = part[0] < *low ? part[0] - margin - *low : part[1] + margin - *high;
-    *low += by;
-    *high += by;
+    const double pan = part[0] < *low ? part[0] - margin - *low : part[1] + margin - *high;
+    *low += pan;
+    *high += pan;
+}
+
+/// Whether a drag measures in the plot, which then stays.
+static bool is_measured(const struct curves *curves, const struct core *core)
+{
+    return core->input.drag.owner && core->input.drag.room == curves;
 }
 
 void follow_edits(struct curves *curves, struct core *core)
@@ -310,7 +328,9 @@ void follow_edits(struct curves *curves, struct core *core)
     struct following *following = &curves->following;
     const struct edited *edited = &core->step.edited;
     const struct document *document = core->document;
-    if (!edited->selection && edited->count == 0) return;
+    const bool has_changed = curves->followed != document->edits;
+    curves->followed = document->edits;
+    if (!edited->selection && edited->count == 0 && !has_changed) return;
 
     // Frames and values of everything edited since the last frame: selected knots with the curve between their neighbours; of splines only
     // the visible values.
@@ -324,10 +344,20 @@ void follow_edits(struct curves *curves, struct core *core)
         include_seen(curves, core, at.spline, first, last, &part);
     }
     for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
-    struct plotted goal = following->moves ? following->goal : core->view.plot;
-    if (part.frame0 <= part.frame1) widen(&goal.frame0, &goal.frame1, (double[2]){part.frame0, part.frame1}, WIDEST);
+    struct plotted goal = following->moves && !is_measured(curves, core) ? following->goal : core->view.plot;
+    const float x = core->input.pointer_x, y = core->input.pointer_y;
+    const bool points = rect_contains(core->view.layout.plot, x, y);
+    const double frame = points ? curves_frame(core, x) : NAN, value = points ? curves_value(core, y) : NAN;
+    if (part.frame0 <= part.frame1)
+        widen(&goal.frame0, &goal.frame1, (double[2]){part.frame0, part.frame1}, WIDEST, frame);
     if (part.value0 <= part.value1)
-        widen(&goal.value0, &goal.value1, (double[2]){part.value0, part.value1}, INFINITY);
+        widen(&goal.value0, &goal.value1, (double[2]){part.value0, part.value1}, INFINITY, value);
+
+    // Whatever was edited, some of the active curve stays in sight.
+    part = NOTHING;
+    if (core->focus.active >= 0) include_seen(curves, core, core->focus.active, 0, INFINITY, &part);
+    if (has_changed && (part.value1 < goal.value0 || part.value0 > goal.value1) && part.value0 <= part.value1)
+        widen(&goal.value0, &goal.value1, (double[2]){part.value0, part.value1}, INFINITY, value);
     const bool moves = goal.frame0 != core->view.plot.frame0 || goal.frame1 != core->view.plot.frame1 ||
                        goal.value0 != core->view.plot.value0 || goal.value1 != core->view.plot.value1;
     *following = (struct following){.moves = moves, .goal = goal};
@@ -338,9 +368,7 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
 {
     keep_ghost(curves, core);
     struct following *following = &curves->following;
-    const bool is_measured =
-        core->input.drag.owner && core->input.drag.room == curves; // curves must not rescale during a drag
-    if (!following->moves || is_measured) return;
+    if (!following->moves || is_measured(curves, core)) return;
     const double share = 1 - maths_exp(-RATE * fmax(dt, 0));
     const struct plotted *view = &core->view.plot, *goal = &following->goal;
     const double left[4] = {goal->frame0 - view->frame0, goal->frame1 - view->frame1, goal->value0 - view->value0,

@@ -70,31 +70,36 @@ int curves_other(const struct curves *curves, const struct document *document, i
     return same ? spline : -1;
 }
 
-/// Draws the active spline's lines. Its lagged copies are spread evenly along the tail or chain that it moves, unless its visible knots are
-/// too close together to tell them apart.
+int curves_fan(const struct core *core, double turn[CURVES_FAN][2])
+{
+    int rig, number;
+    const struct channel *channel = core_active_channel(core, &rig, &number);
+    if (core->view.look != LOOK_WIGGLY || !channel || channel->spline != core->focus.active ||
+        !axis_bends(channel->axis))
+        return 0;
+    for (int i = 0; i < CURVES_FAN; i++) {
+        const int joints = bones_joints(core, rig), joint = (joints - 1) * (i + 1) / CURVES_FAN;
+        const double lag = angles_lag(&channel->lag, joint, joints) * (M_PI / 180);
+        turn[i][0] = maths_cos(lag);
+        turn[i][1] = maths_sin(lag);
+    }
+    return CURVES_FAN;
+}
+
+/// Draws the active spline's lines; its lagged copies unless its visible knots are too close together to tell them apart.
 static void draw_active(struct curves *curves, const struct core *core)
 {
     static const int apart = 3; // columns
     struct curve_cache *cache = &curves->cache;
     const struct evaluation *evaluation = core->evaluation;
     const struct spline *spline = core_active_spline(core);
-    int rig, number;
-    const struct channel *channel = core_active_channel(core, &rig, &number);
     double turn[CURVES_FAN][2];
-    bool fans = core->view.look == LOOK_WIGGLY && channel && channel->spline == core->focus.active &&
-                axis_bends(channel->axis);
-    if (spline && fans) {
+    cache->fan_count = spline ? curves_fan(core, turn) : 0;
+    if (cache->fan_count > 0) {
         const double end = fmin(cache->first + cache->by * cache->count, INT_MAX);
         const int knots = spline_lower_bound(core->document, spline, (int)end) -
                           spline_lower_bound(core->document, spline, (int)cache->first);
-        fans = knots <= cache->count / apart;
-    }
-    cache->fan_count = fans ? CURVES_FAN : 0;
-    for (int i = 0; i < cache->fan_count; i++) {
-        const int joints = bones_joints(core, rig), joint = (joints - 1) * (i + 1) / CURVES_FAN;
-        const double lag = angles_lag(&channel->lag, joint, joints) * (M_PI / 180);
-        turn[i][0] = maths_cos(lag);
-        turn[i][1] = maths_sin(lag);
+        if (knots > cache->count / apart) cache->fan_count = 0;
     }
     for (int c = 0; c < cache->count; c++) {
         wiggly_value v = evaluation_at(evaluation, core->focus.active, cache->position[c]);

@@ -133,6 +133,7 @@ struct ghost {
 
 struct curves {
     struct following following;
+    uint64_t followed; ///< edits of the document when last looked at
     struct dope_sheet sheet;
     struct selection before_box; ///< the selection before a box was drawn
     struct knot_drag knot_drag;
@@ -160,6 +161,9 @@ double curves_pixels_per_frame(const struct core *core);
 double curves_pixels_per_value(const struct core *core);
 double curves_frame(const struct core *core, double x);
 double curves_value(const struct core *core, double y);
+
+/// The cosine and sine of the lags of the active spline's copies, spread evenly along the tail or chain that it bends; returns how many.
+int curves_fan(const struct core *core, double turn[CURVES_FAN][2]);
 
 /// How a spline's values are drawn.
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);
