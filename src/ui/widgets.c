@@ -640,6 +640,8 @@ bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon
 
 // --- typing filters lists
 
+enum { FEWEST_LETTERS = 4 /* that may lie scattered */ };
+
 enum fit ui_filter_fit(const struct ui_filter *filter, const char *text)
 {
     enum fit worst = FIT_START;
@@ -651,6 +653,7 @@ enum fit ui_filter_fit(const struct ui_filter *filter, const char *text)
         for (const char *at = text; *at && found < length; at++)
             found += tolower((unsigned char)*at) == tolower((unsigned char)word[found]);
         if (found < length) return FIT_NOT;
+        if (length < FEWEST_LETTERS) best = FIT_NOT;
         for (const char *at = text; *at; at++) {
             if (strncasecmp(at, word, length) != 0) continue;
             const bool is_inside = at > text && (isalnum((unsigned char)at[-1]) || (unsigned char)at[-1] >= 0x80);

@@ -49,7 +49,7 @@ struct ui_filter {
 /// How well a text matches, better ones larger. Case is ignored; of several words, all must match.
 enum fit {
     FIT_NOT,
-    FIT_LETTERS, ///< has the letters in order
+    FIT_LETTERS, ///< has the letters in order, at least four
     FIT_INSIDE,  ///< contains the text
     FIT_WORD,    ///< one of its words starts with the text
     FIT_START    ///< starts with the text

@@ -1,5 +1,6 @@
 /// What a hand reaches for daily: pause, undo, the palette.
 #include "panel_session.h"
+#include "shown.h"
 
 static const char scene[] =
     "{\"frames\": [0, 100], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
@@ -62,4 +63,33 @@ SESSION_TEST(test_edits_keep_the_curve_in_sight, panel_open(s, scene, 1280, 720)
     session_key(s, KEY_DELETE, 0);
     for (int i = 0; i < 60; i++) session_frame(s);
     assert_true(plot_of(s->editor)->value0 < 0);
+}
+
+/// The palette finds a command by other words for it, too; three scattered letters find nothing.
+SESSION_TEST(test_palette_knows_other_words, panel_open(s, scene, 1280, 720))
+{
+    static const char *const found[][2] = {
+        {"duration", "Scale the selection"},
+        {"retime", "Scale the selection"},
+        {"reverse", "Scale the selection"},
+        {"weight", "Feel heavy"},
+        {"bake", "Export: Blender, film, table"},
+        {"fps", "Unfold Scene: frame rate, range"},
+        {"length", "Unfold Scene: frame rate, range"},
+        {"mute", "Solo: show only this spline, or all again"},
+        {"lock", "Pin the point where it is"},
+        {"flip", "Mirror the chain to the other side"},
+        {"loop", "Unfold Spline: kind, equilibrium, start"},
+        {"offset", "Unfold Tail or chain set-up: channels"},
+        {"clean", "Remove all paint"},
+    };
+    for (size_t i = 0; i < sizeof found / sizeof *found; i++) {
+        session_key(s, KEY_F3, 0);
+        panel_type(s, found[i][0]);
+        if (!shown_text(s->editor, found[i][1])) fail_msg("“%s” does not find “%s”", found[i][0], found[i][1]);
+        session_key(s, KEY_ESCAPE, 0);
+    }
+    session_key(s, KEY_F3, 0);
+    panel_type(s, "fgr");
+    assert_true(shown_text(s->editor, "No command matches. Esc closes."));
 }

@@ -171,7 +171,8 @@ TEST(typing_fits_names)
         {"TAIL", "tail_1", FIT_START},
         {"spl", "Add a spline", FIT_WORD},
         {"pli", "Add a spline", FIT_INSIDE},
-        {"asp", "Add a spline", FIT_LETTERS},
+        {"asp", "Add a spline", FIT_NOT}, // three letters lie scattered in too many
+        {"apln", "Add a spline", FIT_LETTERS},
         {"spline add", "Add a spline", FIT_WORD},
         {"add x", "Add a spline", FIT_NOT},
         {"enilps", "Add a spline", FIT_NOT},

@@ -87,6 +87,7 @@ enum {
 /// A row of the table. A row without a function is a gesture, listed only in F1.
 struct command {
     const char *name; ///< NULL: not listed
+    const char *also; ///< other words for it, which the palette finds; NULL for a gesture
     enum about about;
     unsigned at;                         ///< of enum place
     struct chord chords[COMMAND_CHORDS]; ///< ends at one without a key

@@ -139,8 +139,8 @@ static struct page keys_page(const struct dialogs *dialogs, const struct command
     return page;
 }
 
-/// Finds the commands that match, and lays out the overlay that is open. For the palette those that can run now come first; for F1 all its
-/// rows are in the table's order.
+/// Finds the commands that match, and lays out the overlay that is open. For the palette those that can run now come first, of these files and
+/// examples last; for F1 all its rows are in the table's order.
 static struct page lookup_page(const struct dialogs *dialogs, struct commands_found *found)
 {
     const struct core *core = dialogs->core;
@@ -153,21 +153,24 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
     for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = runs ? need_missing(core, need) : NULL;
     for (int i = 0; i < count; i++) {
         const struct command *command = &commands[i];
-        char keys[COMMAND_KEYS];
+        char keys[COMMAND_KEYS], text[160];
         fits[i] = FIT_NOT;
         if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
         command_keys(command, keys); // its keys also find it
-        fits[i] = ui_filter_fit(filter, command->name);
+        snprintf(text, sizeof text, "%s %s", command->name, command->also ? command->also : "");
+        fits[i] = ui_filter_fit(filter, text);
         if (fits[i] < FIT_INSIDE && ui_filter_fit(filter, keys) >= FIT_WORD) fits[i] = FIT_INSIDE;
         if (fits[i] > best) best = fits[i];
     }
 
     found->count = 0;
     for (enum fit fit = FIT_START; fit >= ui_filter_least(best); fit--) {
-        for (int lacking = 0; lacking < 2; lacking++) {
+        for (int order = 0; order < 6; order++) {
             for (int i = 0; i < count; i++) {
+                const enum about about = commands[i].about;
+                const int late = !runs ? 0 : about == ABOUT_SCENES ? 2 : about == ABOUT_FILE;
                 const char *lacks = missing[commands[i].needs];
-                if (fits[i] != fit || (lacks != NULL) != lacking) continue;
+                if (fits[i] != fit || (lacks ? 3 : 0) + late != order) continue;
                 found->missing[found->count] = lacks;
                 found->list[found->count++] = &commands[i];
             }
