@@ -288,6 +288,8 @@ bool ui_is_dragged(const struct ui *ui, const char *name);
 /// (UI_LINE_CANCEL).
 enum ui_line { UI_LINE_NONE, UI_LINE_DONE, UI_LINE_CANCEL };
 void ui_line_begin(struct ui *ui, const char *name, const char *text);
+/// Goes on with what was typed and refused, unless a press elsewhere or Tab ended it.
+void ui_line_again(struct ui *ui, const char *name);
 bool ui_line_is_open(const struct ui *ui, const char *name);
 enum ui_line ui_line(struct ui *ui, struct rect r, const char *name);
 

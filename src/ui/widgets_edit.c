@@ -148,6 +148,13 @@ void ui_line_begin(struct ui *ui, const char *name, const char *text)
     ui->began = true; // the press that began typing must not end it
 }
 
+void ui_line_again(struct ui *ui, const char *name)
+{
+    if (!ui->used) return;
+    ui->focus = ui->typing = ui_hash(name);
+    ui_keep(ui, ui->typing);
+}
+
 bool ui_line_is_open(const struct ui *ui, const char *name) { return ui->typing == ui_hash(name); }
 
 /// An event's effect on the line typed in `field`: UI_LINE_DONE by a press elsewhere, Enter, or Tab, which is not used up.

@@ -490,7 +490,8 @@ void inspector_tail(struct inspector *in)
         const struct row name = {.name = "tail.name", .label = rig_title(rig), .hint = "Click to rename"};
         if (inspector_button(in, field, &name)) ui_line_begin(ui, rename.name, name.label);
     } else if (inspector_line(in, named, &rename)) {
-        edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->step.error);
+        if (!edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->step.error))
+            ui_line_again(ui, rename.name);
     }
     if (is_tail) {
         inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);

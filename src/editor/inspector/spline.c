@@ -85,8 +85,9 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     const float right = core->view.on[SWITCH_MORE] ? 2 * INSPECTOR_ICON : KIND;
     struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - right, r.h};
     if (active && ui_line_is_open(ui, rename_row.name)) {
-        if (inspector_line(in, label, &rename_row))
-            edit_spline_name(core->document, s, ui->text.bytes, &core->step.error);
+        if (inspector_line(in, label, &rename_row) &&
+            !edit_spline_name(core->document, s, ui->text.bytes, &core->step.error))
+            ui_line_again(ui, rename_row.name);
     } else {
         ui_hint(ui, label, "Click to edit (PgUp, PgDn), M for another kind, F2 to rename, drag to reorder");
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
