@@ -296,6 +296,14 @@ static struct warning in_middle(const struct look *look, const struct knot_span 
                             .to = span->to->frame};
 }
 
+/// Whether the curve does not leave its equilibrium.
+static bool is_flat(const struct look *look, const struct knot_span *span)
+{
+    double highest = 0;
+    for (int i = 0; i <= span->length; i++) highest = fmax(highest, height(look->curve, sample_in(look, span, i)));
+    return highest <= 1e-9 * fmax(1, fabs(look->curve->y[span->first]));
+}
+
 static double degrees_between(double a, double b) { return fabs(remainder(a - b, 2 * M_PI)) * 180 / M_PI; }
 
 /// The least degrees by which a knot without a phase is out of step: its value gives only the sign of Re x.
@@ -428,7 +436,7 @@ void warnings_add(const struct document *document, const struct evaluation *eval
         if (!take_span(&look, k, &span)) continue;
         const double periods = frequency * span.length * document_step(document);
         const double most = WIDE_TURN * (1 + 1e-9); // allows for rounding
-        if (bandwidth_of(spline) * periods <= most || periods <= drift.amount) continue;
+        if (bandwidth_of(spline) * periods <= most || periods <= drift.amount || is_flat(&look, &span)) continue;
         drift = in_middle(&look, &span, WARNING_DRIFT);
         drift.amount = periods;
         drift.limit = bandwidth_of(spline);
