@@ -325,7 +325,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
     app_adopt(app, document);
     if (path && !is_users) show_subject(app, path_name(path));
     app->own_file.content = content;
-    personal_note_file(app, app_path(app));
+    personal_note_file(app, imports ? path : app_path(app));
     return true;
 }
 

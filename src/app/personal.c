@@ -6,6 +6,7 @@
 #include "base/names.h"
 #include "base/need.h"
 #include "base/progress.h"
+#include "rig/import.h"
 #include "scene/load.h"
 #include "ui/theme.h"
 #include <errno.h>
@@ -209,7 +210,7 @@ void personal_start(struct app *app)
     complain(app, &error);
     if (o->record || o->frames) return; // a script must not depend on the user
     start_settings(app);
-    personal_note_file(app, app_path(app));
+    personal_note_file(app, o->scene && !app_path(app)[0] && import_suits(o->scene) ? o->scene : app_path(app));
     if (personal->autosave) offer(app);
 }
 
