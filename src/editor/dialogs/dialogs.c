@@ -6,6 +6,7 @@
 #include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -834,8 +835,15 @@ static void build_list(struct dialogs *dialogs)
                                recent->missing ? "no longer exists" : folder, theme()->text_dim);
             }
         }
-        if (row == 0 && dialog->match_count == 0)
-            ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 12, r.h}, "Nothing matches.", theme()->text_dim);
+        if (row == 0 && dialog->match_count == 0) {
+            char folder[PATH_MAX], text[PATH_MAX + 32] = "Nothing matches.";
+            const bool saves = dialog->kind == DIALOG_SAVE_AS, in_page = dialog->app->in_page;
+            const bool exists = saves && realpath(dialog->listed[0] ? dialog->listed : ".", folder);
+            if (saves)
+                snprintf(text, sizeof text, exists ? "A new file in %s." : "There is no such folder.",
+                         in_page ? "this browser" : folder);
+            ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 12, r.h}, text, theme()->text_dim);
+        }
     }
     if (taken >= 0) dialog->error[0] = '\0';
     bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // one click opens a recent file
