@@ -239,8 +239,8 @@ static void paint_control(const struct core *core, struct drawlist *list, int co
     if (control == PLAY) {
         const float x = r.x + 6, y = r.y + r.h / 2;
         const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
-        if (playback->playing) drawlist_convex(list, triangle, 3, color);
-        for (int bar = 0; bar < 2 && !playback->playing; bar++)
+        if (!playback->playing) drawlist_convex(list, triangle, 3, color);
+        for (int bar = 0; bar < 2 && playback->playing; bar++)
             drawlist_rect(list, (struct rect){x + 5 * (float)bar, y - 5, 3, 10}, color);
     } else if (control == PRESENT) {
         const float x = roundf(r.x + (r.w - 14) / 2), y = roundf(r.y + (r.h - 12) / 2);
@@ -587,6 +587,8 @@ void editor_show(struct editor *editor)
 {
     struct core *core = &editor->core;
     const bool covered = dialogs_cover(editor->dialogs);
+    const struct ui *ui = inspector_ui(editor->inspector);
+    const bool lists = ui->popup.id != 0; // it may lie over other panels
     const float x = core->input.pointer_x, y = core->input.pointer_y;
     drawlist_clear(&core->list, core->view.layout.window);
 
@@ -594,7 +596,7 @@ void editor_show(struct editor *editor)
     editor->status.pointer_x = -1;
     editor->status.hint = NULL;
     if (!core->input.drag.owner) {
-        const bool is_beside = covered || core_divider_at(core, x, y) != DIVIDER_NONE;
+        const bool is_beside = covered || lists || core_divider_at(core, x, y) != DIVIDER_NONE;
         const enum panel panel = is_beside ? PANEL_NONE : core_panel_at(core, x, y);
         core->input.hover = (struct hover){.thing = NULL};
         if (panel == PANEL_CURVES) core->input.hover = curves_hover(editor->curves, core, x, y);
@@ -620,11 +622,10 @@ void editor_show(struct editor *editor)
 
     // The tooltip is for the control under the pointer, else for the focused one.
     const struct rect cursor = {x, y - 4, 14, 22};
-    const struct ui *ui = inspector_ui(editor->inspector);
     const struct thing *thing = core->input.hover.thing;
     const char *control = thing && thing->is_control ? thing->hint : editor->status.hint;
     const char *text = ui->hint ? ui->hint : control;
-    const bool is_focus = !text && ui->focus;
+    const bool is_focus = !text && ui->focus && !lists;
     if (is_focus) text = ui->focus_hint;
     if (covered || core->input.drag.owner) text = NULL;
     tooltip_offer(&editor->tooltip, text, x, y, is_focus ? ui->focus_rect : cursor);

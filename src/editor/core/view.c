@@ -113,11 +113,15 @@ static bool is_wanted(const struct core *core, enum panel panel)
            y > l->window.h - NEAR;
 }
 
+static const double LEAVING_SHOWN = 3; ///< seconds
+
 void presenter_toggle(struct core *core, int argument)
 {
     (void)argument;
     core->view.presenter = (struct presenter){.on = !core->view.presenter.on, .side = 1, .below = 1};
     core_layout(core);
+    core_message(core, false, core->view.presenter.on ? "Esc leaves, Tab or an edge shows the panels." : "");
+    core->message.seconds_left = LEAVING_SHOWN;
 }
 
 bool presenter_event(struct core *core, const struct event *event)
