@@ -2,9 +2,16 @@
 #include "panel_session.h"
 #include "shown.h"
 
+#include <limits.h>
+#include <unistd.h>
+
 static const char scene[] =
     "{\"frames\": [0, 100], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
     "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 1}]}]}";
+
+static const char flat[] =
+    "{\"frames\": [0, 100], \"splines\": [{\"name\": \"sway\", \"bandwidth\": 1, \"frequency\": 1, \"damping\": 0.1, "
+    "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 90, \"value\": 0}]}]}";
 
 /// What the status line shows is where the playhead is, so that the next edit moves nothing.
 SESSION_TEST(test_pause_stops_on_a_frame, panel_open(s, scene, 1280, 720))
@@ -92,4 +99,63 @@ SESSION_TEST(test_palette_knows_other_words, panel_open(s, scene, 1280, 720))
     session_key(s, KEY_F3, 0);
     panel_type(s, "fgr");
     assert_true(shown_text(s->editor, "No command matches. Esc closes."));
+}
+
+/// A taken name is refused, and what was typed stays to be mended.
+SESSION_TEST(test_refused_name_stays,
+             panel_open(s, "{\"frames\": [0, 99], \"splines\": [" PANEL_SPLINES "]}", 1280, 720))
+{
+    session_key(s, KEY_F2, 0);
+    panel_type(s, "pace");
+    session_key(s, KEY_ENTER, 0);
+    assert_said_error(s->editor, "a spline called pace already exists");
+    assert_true(inspector_of(s->editor)->typing);
+    panel_type(s, "2");
+    session_key(s, KEY_ENTER, 0);
+    assert_string_equal(s->document->splines[0]->name, "pace2");
+}
+
+SESSION_TEST(test_presenting_says_how_to_leave, panel_open(s, scene, 1280, 720))
+{
+    session_key(s, KEY_F5, 0);
+    assert_said(s->editor, "Esc leaves");
+    for (int i = 0; i < 170; i++) session_frame(s);
+    assert_said(s->editor, "Esc leaves");
+    for (int i = 0; i < 15; i++) session_frame(s);
+    assert_string_equal(said(s->editor), "");
+}
+
+/// A spline that rests everywhere cannot drift, however wide its band.
+SESSION_TEST(test_flat_curve_has_no_warning, panel_open(s, flat, 1280, 720))
+{
+    assert_int_equal(warnings_of(s->editor)->count, 0);
+}
+
+/// An open list hides what lies under it: nothing there has a tooltip or lights up.
+SESSION_TEST(test_list_covers_what_lies_under_it, panel_open(s, scene, 1280, 720))
+{
+    session_hover(s, "knot(sway,1)");
+    assert_non_null(hovered(s->editor));
+    session_key(s, 'A', 0);
+    session_hover(s, "knot(sway,1)");
+    assert_null(hovered(s->editor));
+}
+
+static int list_nothing(void *user, const char *folder, char names[][256], int most)
+{
+    (void)user, (void)folder, (void)names, (void)most;
+    return 0;
+}
+
+/// The dialog says where a new name will lie.
+SESSION_TEST(test_save_dialog_names_the_folder, panel_open(s, scene, 1280, 720))
+{
+    list_files(s->editor, &(struct editor_app){.list = list_nothing});
+    char folder[PATH_MAX], text[PATH_MAX + 32];
+    session_key(s, 'S', MOD_CTRL | MOD_SHIFT);
+    panel_type(s, "a-new-name");
+    snprintf(text, sizeof text, "A new file in %s.", getcwd(folder, sizeof folder));
+    assert_non_null(shown_text(s->editor, text));
+    panel_type(s, "/x");
+    assert_non_null(shown_text(s->editor, "There is no such folder."));
 }
