@@ -266,6 +266,7 @@ const struct command commands[] = {
     COMMAND("Go to the end", PLAYBACK, 0, NOTHING, 0, .core = playback_end, 1, {KEY_RIGHT, SHIFT}),
     GESTURE("Drag the ruler", "Scrub", PLAYBACK, ON_TIME),
     GESTURE("Shift+drag it", "Play a part", PLAYBACK, ON_TIME),
+    ALSO("loop cycle seamless", "Close all curves", PLAYBACK, 0, SPLINE, 0, .core = core_close_curves, 0, {0}),
     ALSO("range in part", "Play from here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 0, {'[', TYPED},
          {KEY_HOME, CTRL}),
     ALSO("range out part", "Play up to here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 1, {']', TYPED},

@@ -13,6 +13,10 @@ static const char flat[] =
     "{\"frames\": [0, 100], \"splines\": [{\"name\": \"sway\", \"bandwidth\": 1, \"frequency\": 1, \"damping\": 0.1, "
     "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 90, \"value\": 0}]}]}";
 
+static const char open_scene[] = "{\"frames\": [0, 100], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
+                                 "\"damping\": 0.1, \"knots\": [{\"frame\": 0, "
+                                 "\"value\": 0}, {\"frame\": 90, \"value\": 1}, {\"frame\": 100, \"value\": 2}]}]}";
+
 /// What the status line shows is where the playhead is, so that the next edit moves nothing.
 SESSION_TEST(test_pause_stops_on_a_frame, panel_open(s, scene, 1280, 720))
 {
@@ -158,4 +162,25 @@ SESSION_TEST(test_save_dialog_names_the_folder, panel_open(s, scene, 1280, 720))
     assert_non_null(shown_text(s->editor, text));
     panel_type(s, "/x");
     assert_non_null(shown_text(s->editor, "There is no such folder."));
+}
+
+/// Looping playback of curves that do not close says so at the ruler's end, and a click there closes them.
+SESSION_TEST(test_open_curves_are_closed, panel_open(s, open_scene, 1280, 720))
+{
+    struct error error;
+    float x, y;
+    assert_false(editor_target(s->editor, "seam()", &x, &y, &error));
+    session_key(s, KEY_SPACE, 0);
+    session_key(s, 'L', MOD_CTRL); // playback no longer loops
+    assert_false(editor_target(s->editor, "seam()", &x, &y, &error));
+    session_key(s, 'L', MOD_CTRL);
+    session_frame(s);
+    const char *before = session_saved(s);
+    session_click(s, "seam()");
+    assert_said(s->editor, "1 curve closed");
+    assert_int_equal(spline_start(s->document->splines[0]), WIGGLY_LOOP);
+    assert_int_equal(s->document->splines[0]->knot_count, 2); // that on the last frame repeats the first
+    assert_one_step(s, before);
+    session_frame(s);
+    assert_false(editor_target(s->editor, "seam()", &x, &y, &error));
 }

@@ -5,6 +5,7 @@
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
 #include "editor/core/view.h"
+#include "maths/maths.h"
 #include "scene/order.h"
 #include "scene/warnings.h"
 #include <math.h>
@@ -441,4 +442,38 @@ void core_find_frequency(struct core *core, int unused)
         core_message(core, false, "%s: %.2f Hz, damping %.3g. Shift+F again for the %s: %.2f Hz.", which, hz, damping,
                      chosen ? "best" : "runner-up", found[1 - chosen].frequency);
     }
+}
+
+int core_open_curves(const struct core *core)
+{
+    static const double SEEN = 0.01; // of the curve's height
+    const struct evaluation *evaluation = core->evaluation;
+    int count = 0;
+    for (int s = 0; evaluation && s < evaluation->count && s < core->document->spline_count; s++) {
+        const int last = evaluation->samples - 1;
+        const double *total = evaluation->curves[s].total;
+        if (last < 1 || spline_start(core->document->splines[s]) == WIGGLY_LOOP) continue;
+        const wiggly_value first = evaluation_at(evaluation, s, 0), end = evaluation_at(evaluation, s, last);
+        const double height = total[evaluation_extreme(evaluation, s, 0, last, true)] -
+                              total[evaluation_extreme(evaluation, s, 0, last, false)];
+        count += maths_hypot(total[last] - total[0], end.im - first.im) > SEEN * height;
+    }
+    return count;
+}
+
+void core_close_curves(struct core *core, int unused)
+{
+    struct document *document = core->document;
+    (void)unused;
+    int count = 0;
+    if (!core_step(core, "Close all curves", 0)) return;
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = document->splines[s];
+        if (spline_start(spline) == WIGGLY_LOOP) continue;
+        const int knot = spline_find_knot(document, spline, document_samples(document) - 1);
+        if (knot >= 0 && !edit_knot_remove(document, s, spline->knots[knot].id, &core->step.error)) return;
+        if (!core_set_parameter(core, s, PARAMETER_START, WIGGLY_LOOP)) return;
+        count++;
+    }
+    core_message(core, false, "%d curve%s closed: the end meets the start.", count, count == 1 ? "" : "s");
 }

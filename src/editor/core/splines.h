@@ -19,6 +19,11 @@ void spline_list_fps(struct core *core, double fps);
 /// Sets the range; asks whether to move or delete knots outside.
 void spline_list_range(struct core *core, int first, int last);
 
+/// How many curves do not end as they start, so that looping playback jumps.
+int core_open_curves(const struct core *core);
+/// Closes all curves: each ends as it starts. A knot on the last frame goes, because that frame then repeats the first.
+void core_close_curves(struct core *core, int unused);
+
 /// Sets the frequency and damping that explain the knots best, or second best if those are set already.
 void core_find_frequency(struct core *core, int unused);
 

@@ -5,6 +5,7 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/rigs.h"
+#include "editor/core/splines.h"
 #include "editor/core/view.h"
 #include "editor/curves/state.h"
 #include "maths/maths.h"
@@ -330,6 +331,7 @@ void follow_edits(struct curves *curves, struct core *core)
     const struct document *document = core->document;
     const bool has_changed = curves->followed != document->edits;
     curves->followed = document->edits;
+    if (has_changed) curves->open = core_open_curves(core);
     if (!edited->selection && edited->count == 0 && !has_changed) return;
 
     // Frames and values of everything edited since the last frame: selected knots with the curve between their neighbours; of splines only
@@ -439,11 +441,44 @@ static void end_box(void *room, struct core *core, bool keep)
     if (keep) selected_activate(core);
 }
 
+/// Below the ruler's end while playback loops over curves that do not close.
+static bool seam_place(const struct curves *curves, const struct core *core, float xy[2])
+{
+    const struct rect *plot = &core->view.layout.plot;
+    xy[0] = curves_x(core, core->document->last_frame);
+    xy[1] = plot->y + EDGE;
+    return core->view.playback.playing && core->view.on[SWITCH_LOOP] && !playback_is_part(core) && curves->open > 0 &&
+           rect_contains(*plot, xy[0], xy[1]);
+}
+
+static bool find_seam(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    (void)target;
+    return seam_place(room, core, xy);
+}
+
+static void press_seam(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    (void)room, (void)hover, (void)event;
+    core_close_curves(core, 0);
+}
+
+const struct thing thing_seam = {
+    .cursor = CURSOR_HAND,
+    .hint = "Playback jumps here, because curves do not end as they start. Click to close all curves",
+    .is_control = true,
+    .place = ON_TIME,
+    .press = press_seam,
+    .name = "seam",
+    .find = find_seam,
+    .missing = "playback does not jump there"};
+
 static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }
 
 struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
     struct hover hover = ruler_pins_hover(core, x, y);
+    float xy[2];
     const struct spline *spline = core_active_spline(core);
     if (hover.thing) return hover;
     if (rect_contains(core->view.layout.ruler, x, y)) hover.thing = &thing_ruler;
@@ -451,9 +486,11 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     if (rect_contains(sheet_switch(core), x, y)) hover.thing = &thing_sheet;
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
     if (!rect_contains(core->view.layout.plot, x, y) || !spline) return hover;
+    if (seam_place(curves, core, xy) && maths_hypotf(x - xy[0], y - xy[1]) <= WARNING_REACH)
+        hover.thing = &thing_seam;
     const bool seen = spline_list_seen(core) != NULL;
     const float pointer[2] = {x, y};
-    float best = core_reach(core, CURVES_HIT_RADIUS), xy[2];
+    float best = core_reach(core, CURVES_HIT_RADIUS);
     if (seen) nearest_knot(curves, core, core->focus.active, pointer, best, &hover);
     if (hover.thing) return hover;
     for (int k = 0; k < spline->knot_count && seen; k++) {
@@ -594,8 +631,8 @@ static void press_limit(void *room, struct core *core, const struct hover *hover
 const struct thing thing_limit = {
     .cursor = CURSOR_VERTICAL, .hint = "Drag the limit; the curve stays on this side of it", .press = press_limit};
 
-const struct thing *const curves_things[] = {&thing_knot,    &thing_mark,  &thing_slope,    &thing_curve, &thing_box,
-                                             &thing_warning, &thing_ruler, &thing_pin_time, NULL};
+const struct thing *const curves_things[] = {&thing_knot,    &thing_mark, &thing_slope, &thing_curve,    &thing_box,
+                                             &thing_warning, &thing_seam, &thing_ruler, &thing_pin_time, NULL};
 
 void curves_press(struct curves *curves, struct core *core, const struct event *event)
 {
@@ -916,18 +953,23 @@ static int hovered_warning(const struct curves *curves, const struct core *core)
     return core->input.hover.thing == &thing_warning && index < curves->warnings.count ? index : -1;
 }
 
+static void mark_show(struct core *core, const float at[2], bool is_hovered)
+{
+    const float x = at[0], y = at[1], r = is_hovered ? SIZE + 1.5f : SIZE;
+    const float corners[] = {x, y - r, x + r, y + 0.8f * r, x - r, y + 0.8f * r};
+    drawlist_convex(&core->list, corners, 3, theme()->warning);
+    drawlist_rect(&core->list, (struct rect){x - 0.75f, y - 0.4f * r, 1.5f, 0.6f * r}, theme()->panel);
+    drawlist_rect(&core->list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, theme()->panel);
+}
+
 void warnings_show(const struct curves *curves, struct core *core)
 {
     const int hovered = hovered_warning(curves, core);
+    float xy[2];
     for (int i = 0; i < curves->warnings.count; i++) {
-        float xy[2];
-        if (!warning_place(curves, core, &curves->warnings.list[i], xy)) continue;
-        const float x = xy[0], y = xy[1], r = i == hovered ? SIZE + 1.5f : SIZE;
-        const float corners[] = {x, y - r, x + r, y + 0.8f * r, x - r, y + 0.8f * r};
-        drawlist_convex(&core->list, corners, 3, theme()->warning);
-        drawlist_rect(&core->list, (struct rect){x - 0.75f, y - 0.4f * r, 1.5f, 0.6f * r}, theme()->panel);
-        drawlist_rect(&core->list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, theme()->panel);
+        if (warning_place(curves, core, &curves->warnings.list[i], xy)) mark_show(core, xy, i == hovered);
     }
+    if (seam_place(curves, core, xy)) mark_show(core, xy, core->input.hover.thing == &thing_seam);
 }
 
 void warnings_show_words(struct curves *curves, struct core *core)

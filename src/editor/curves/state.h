@@ -134,6 +134,7 @@ struct ghost {
 struct curves {
     struct following following;
     uint64_t followed; ///< edits of the document when last looked at
+    int open;          ///< curves that do not end as they start
     struct dope_sheet sheet;
     struct selection before_box; ///< the selection before a box was drawn
     struct knot_drag knot_drag;
@@ -181,7 +182,7 @@ float curves_knot_x(const struct core *core, const struct knot *knot);
 int curves_knot_from(const struct core *core, const struct spline *spline, double x);
 
 extern const struct thing thing_knot, thing_mark, thing_slope, thing_curve, thing_active_curve, thing_box,
-    thing_warning, thing_limit, thing_row, thing_ruler, thing_units, thing_sheet, thing_pin_time;
+    thing_warning, thing_seam, thing_limit, thing_row, thing_ruler, thing_units, thing_sheet, thing_pin_time;
 
 /// Draws a spline's knots, in the plot (`row` NAN) or at the height `row` of the dope sheet.
 void knots_show(const struct curves *curves, struct core *core, int spline, float row);
