@@ -511,6 +511,12 @@ static bool close_files(struct app *app, struct error *error)
     return recording_close(app->recording, app->frame, good ? error : &other) && good;
 }
 
+static bool keeps_key(void *user, int key, unsigned mods)
+{
+    const struct app *app = user;
+    return app->work.editor && editor_keeps(app->work.editor, key, mods);
+}
+
 /// The display and GL are gone: saves the document if possible. The process ends on return, but in a browser.
 static void on_lost(void *user)
 {
@@ -590,6 +596,7 @@ static bool start_app(struct app *app, struct error *error)
     app->must_redraw = true;
     if (window) {
         platform_on_lost(on_lost, app);
+        platform_on_key(keeps_key, app);
         if (!is_replay(app)) process_catch_end();
     }
     if (is_live(app)) {
@@ -643,6 +650,7 @@ int app_run(const struct app_options *options, struct error *error)
     struct error late = {0};
     if (screenshot && !app_screenshot(&app, screenshot, good ? error : &late)) good = false;
     if (!close_files(&app, good ? error : &late)) good = false;
+    platform_on_key(NULL, NULL);
     platform_on_lost(NULL, NULL); // a rescue would save the document, which is freed below
     personal_end(&app, !good);
     app_free(&app);

@@ -468,6 +468,18 @@ static void pass_on(struct editor *editor, const struct event *event)
     }
 }
 
+bool editor_keeps(const struct editor *editor, int key, unsigned mods)
+{
+    const struct core *core = &editor->core;
+    const struct ui *ui = inspector_ui(editor->inspector);
+    const bool asks = dialogs_cover(editor->dialogs) || ui->popup.id;
+    if (command_is_browsers(key, mods)) return false;
+    if (key == KEY_TAB && !asks && !core->view.presenter.on && (mods == 0 || mods == MOD_SHIFT))
+        return ui_has_next(ui, mods & MOD_SHIFT ? -1 : 1);
+    const bool is_plain = !(mods & (MOD_CTRL | MOD_ALT | MOD_SUPER)) && (key < KEY_F1 || key > KEY_F12);
+    return is_plain || asks || ui->typing || keys_command(key, mods);
+}
+
 void editor_let_go(struct editor *editor)
 {
     drag_end(&editor->core, true);

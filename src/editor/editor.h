@@ -74,6 +74,8 @@ struct editor_shown {
 };
 struct editor_shown editor_shown(const struct editor *editor);
 
+/// In a browser: whether a key is the app's. Tab leaves the page after the inspector's last field, and before its first with Shift.
+bool editor_keeps(const struct editor *editor, int key, unsigned mods);
 /// Whether something is moving, so that the next frame must not wait for an event.
 bool editor_wants_frames(const struct editor *editor);
 enum mouse_cursor editor_cursor(const struct editor *editor);

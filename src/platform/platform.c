@@ -504,6 +504,8 @@ static bool handle_errors(void)
     return true;
 }
 
+void platform_on_key(platform_keeps_key *function, void *user) { (void)function, (void)user; }
+
 void platform_on_lost(platform_rescue *function, void *user)
 {
     x_handler *(*set)(x_handler *);

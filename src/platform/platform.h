@@ -69,4 +69,8 @@ void platform_cursor(struct platform *platform, enum mouse_cursor cursor);
 typedef void platform_rescue(void *user);
 void platform_on_lost(platform_rescue *function, void *user);
 
+/// In a browser: asked whether a key is the app's; the others stay the browser's.
+typedef bool platform_keeps_key(void *user, int key, unsigned mods);
+void platform_on_key(platform_keeps_key *function, void *user);
+
 #endif

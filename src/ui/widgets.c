@@ -62,14 +62,25 @@ void ui_begin_find(struct ui *ui, struct rect area, const char *name, const doub
     ui->find_value = value ? *value : 0;
 }
 
+/// The focused widget's place among the last pass's; -1: none.
+static int focused(const struct ui *ui)
+{
+    int at = ui->stop_count - 1;
+    while (at >= 0 && ui->stop[at].id != ui->focus) at--;
+    return at;
+}
+
+bool ui_has_next(const struct ui *ui, int direction)
+{
+    const int at = focused(ui), next = at + direction;
+    return at < 0 ? ui->stop_count > 0 : next >= 0 && next < ui->stop_count;
+}
+
 /// Moves the focus to the next (1) or previous (-1) widget, cyclically, and scrolls to it.
 static void move_focus(struct ui *ui, int direction)
 {
     if (ui->stop_count == 0) return;
-    int at = -1;
-    for (int i = 0; i < ui->stop_count; i++) {
-        if (ui->stop[i].id == ui->focus) at = i;
-    }
+    int at = focused(ui);
     if (at < 0) {
         at = direction > 0 ? 0 : ui->stop_count - 1;
     } else {

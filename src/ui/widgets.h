@@ -155,6 +155,8 @@ void ui_begin_draw(struct ui *ui, struct rect area, struct drawlist *list);
 void ui_begin_find(struct ui *ui, struct rect area, const char *name, const double *value);
 /// Ends the pass: moves the focus for Tab, forgets removed widgets. true if the event was used or the widget found.
 bool ui_end(struct ui *ui);
+/// Whether Tab (1) or Shift+Tab (-1) leads to a widget without starting over.
+bool ui_has_next(const struct ui *ui, int direction);
 
 /// Drops focus, hold and typing without a change.
 void ui_release(struct ui *ui);

@@ -184,3 +184,32 @@ SESSION_TEST(test_open_curves_are_closed, panel_open(s, open_scene, 1280, 720))
     session_frame(s);
     assert_false(editor_target(s->editor, "seam()", &x, &y, &error));
 }
+
+/// In a page, the browser keeps its own keys and those without a command; Tab leaves after the last field.
+SESSION_TEST(test_browser_keeps_its_keys, panel_open(s, scene, 1280, 720))
+{
+    static const struct {
+        int key;
+        unsigned mods;
+        bool kept;
+    } keys[] = {
+        {KEY_F5, 0, false},          {KEY_F6, MOD_SHIFT, false}, {KEY_F1, 0, true},
+        {'R', MOD_CTRL, false},      {'L', MOD_CTRL, false},     {'W', MOD_CTRL, false},
+        {'T', MOD_CTRL, false},      {'F', MOD_CTRL, false},     {'P', MOD_CTRL, false},
+        {KEY_LEFT, MOD_ALT, false},  {'Z', MOD_CTRL, true},      {'L', MOD_CTRL | MOD_SHIFT, true},
+        {KEY_LEFT, MOD_CTRL, true},  {KEY_DELETE, 0, true},      {KEY_TAB, 0, true},
+        {KEY_HOME, MOD_SHIFT, true}, {KEY_TAB, MOD_CTRL, false},
+    };
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        if (editor_keeps(s->editor, keys[i].key, keys[i].mods) != keys[i].kept)
+            fail_msg("key %d with %u: expected %d", keys[i].key, keys[i].mods, keys[i].kept);
+    }
+    int fields = 0;
+    while (fields < 500 && editor_keeps(s->editor, KEY_TAB, 0)) session_key(s, KEY_TAB, 0), fields++;
+    assert_in_range(fields, 5, 200);
+    assert_true(editor_keeps(s->editor, KEY_TAB, MOD_SHIFT));
+    for (; fields > 1; fields--) session_key(s, KEY_TAB, MOD_SHIFT);
+    assert_false(editor_keeps(s->editor, KEY_TAB, MOD_SHIFT));
+    session_key(s, KEY_F3, 0); // what is typed there keeps Tab and the clipboard's keys
+    assert_true(editor_keeps(s->editor, KEY_TAB, 0) && editor_keeps(s->editor, 'F', MOD_CTRL));
+}

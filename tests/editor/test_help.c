@@ -35,7 +35,7 @@ TEST(test_every_row_is_reached_whole)
             for (int c = 0; c < command_count; c++) {
                 char keys[COMMAND_KEYS];
                 if (!commands[c].name || seen[c]) continue;
-                command_keys(&commands[c], keys);
+                command_keys(&commands[c], false, keys);
                 seen[c] = is_seen(&s, commands[c].name) && (!keys[0] || is_seen(&s, keys));
             }
             session_wheel(&s, -1);
@@ -95,7 +95,7 @@ TEST(test_ten_keys_about_what_is_under_the_pointer)
                 {"curve(sway,20,0)", "Over the curves", "Fix the first warning", ON_CURVES},
                 {"ruler(20)", "Over the ruler and the status line", "Scrub", ON_TIME},
                 {"stage(0.05,0.1)", "Over the stage", "Onion skin", ON_STAGE},
-                {"widget(section.feel)", "In the inspector", "Type a number", ON_INSPECTOR}};
+                {"widget(section.feel)", "In the inspector", "Type a number, +5, *2, 12/24", ON_INSPECTOR}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct session s;
         int count = 0;

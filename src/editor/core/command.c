@@ -116,7 +116,16 @@ static size_t add(char text[COMMAND_KEYS], size_t length, const char *word)
     return length + (size_t)more < COMMAND_KEYS ? length + (size_t)more : COMMAND_KEYS - 1;
 }
 
-void command_keys(const struct command *command, char text[COMMAND_KEYS])
+bool command_is_browsers(int key, unsigned mods)
+{
+    const bool is_arrow = key == KEY_LEFT || key == KEY_RIGHT || key == KEY_UP || key == KEY_DOWN;
+    if (key == KEY_F5 || key == KEY_F6) return true;
+    if (mods == MOD_ALT) return is_arrow;
+    if (mods == MOD_CTRL) return key == 'R' || key == 'L' || key == 'W' || key == 'T';
+    return mods == (MOD_CTRL | MOD_SHIFT) && (key == 'R' || key == 'W' || key == 'T');
+}
+
+void command_keys(const struct command *command, bool in_page, char text[COMMAND_KEYS])
 {
     size_t length = 0;
     text[0] = '\0';
@@ -124,7 +133,8 @@ void command_keys(const struct command *command, char text[COMMAND_KEYS])
     const struct chord *end = command->chords + COMMAND_SHOWN;
     for (const struct chord *chord = command->chords; !command->gesture && chord < end && chord->key; chord++) {
         const char typed[2] = {(char)chord->key, '\0'};
-        if (chord != command->chords) length = add(text, length, " or ");
+        if (in_page && command_is_browsers(chord->key, chord->mods)) continue;
+        if (length > 0) length = add(text, length, " or ");
         if (chord->mods & MOD_CTRL) length = add(text, length, "Ctrl+");
         if (chord->mods & MOD_SHIFT) length = add(text, length, "Shift+");
         if (chord->mods & MOD_ALT) length = add(text, length, "Alt+");

@@ -108,8 +108,10 @@ struct command {
 bool command_runs(const struct command *command);
 /// What is missing, as in "Select a knot first."; NULL: nothing.
 const char *need_missing(const struct core *core, enum need need);
-/// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for neither.
-void command_keys(const struct command *command, char text[COMMAND_KEYS]);
+/// Keys that a browser keeps for itself: reload, its address, tabs and history.
+bool command_is_browsers(int key, unsigned mods);
+/// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for neither. In a page, without the browser's own.
+void command_keys(const struct command *command, bool in_page, char text[COMMAND_KEYS]);
 /// A key's name, as "Esc", "PgUp", "←", or NULL.
 const char *command_key_name(int key);
 

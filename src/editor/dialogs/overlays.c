@@ -56,6 +56,7 @@ struct page {
     int first[MAX_COLUMNS + 1];
     float here;   ///< F1: height of the rows for the place under the pointer, with the gap below
     float column; ///< F1: a column's width
+    bool in_page; ///< the app runs in a browser, which has keys of its own
 };
 
 static struct page palette_page(const struct commands_found *found, struct rect window)
@@ -156,7 +157,7 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
         char keys[COMMAND_KEYS], text[160];
         fits[i] = FIT_NOT;
         if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
-        command_keys(command, keys); // its keys also find it
+        command_keys(command, core->app.in_page, keys); // its keys also find it
         snprintf(text, sizeof text, "%s %s", command->name, command->also ? command->also : "");
         fits[i] = ui_filter_fit(filter, text);
         if (fits[i] < FIT_INSIDE && ui_filter_fit(filter, keys) >= FIT_WORD) fits[i] = FIT_INSIDE;
@@ -176,7 +177,10 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
             }
         }
     }
-    return runs ? palette_page(found, core->view.layout.window) : keys_page(dialogs, found, core->view.layout.window);
+    struct page page =
+        runs ? palette_page(found, core->view.layout.window) : keys_page(dialogs, found, core->view.layout.window);
+    page.in_page = core->app.in_page;
+    return page;
 }
 
 /// Opens it, or closes it if it is open.
@@ -303,11 +307,12 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
 }
 
 /// Draws rows of keys and names from `r` on, one row high.
-static void show_rows(struct drawlist *list, struct rect r, float keys, const struct command *const *rows, int count)
+static void show_rows(struct drawlist *list, const struct page *page, struct rect r, float keys,
+                      const struct command *const *rows, int count)
 {
     for (int i = 0; i < count; i++, r.y += ROW) {
         char text[COMMAND_KEYS];
-        command_keys(rows[i], text);
+        command_keys(rows[i], page->in_page, text);
         paint_line(list, (struct rect){r.x, r.y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, text);
         paint_line(list, (struct rect){r.x + keys, r.y, r.w - keys, r.h}, FONT_LABEL, theme()->text_dim,
                    rows[i]->name);
@@ -315,15 +320,15 @@ static void show_rows(struct drawlist *list, struct rect r, float keys, const st
 }
 
 /// Width of the widest keys with a gap, at most half a column.
-static float keys_width(const struct command *const *rows, int count, float column)
+static float keys_width(const struct page *page, const struct command *const *rows, int count)
 {
     float widest = 0;
     for (int i = 0; i < count; i++) {
         char text[COMMAND_KEYS];
-        command_keys(rows[i], text);
+        command_keys(rows[i], page->in_page, text);
         widest = fmaxf(widest, font_width(FONT_LABEL, THEME_TEXT_NORMAL, text));
     }
-    return fminf(ceilf(widest) + KEYS_GAP, floorf(0.5f * column));
+    return fminf(ceilf(widest) + KEYS_GAP, floorf(0.5f * page->column));
 }
 
 /// Draws rows in even columns from `y` on.
@@ -335,7 +340,7 @@ static void show_grid(struct drawlist *list, const struct page *page, float y, c
         const int length = first + high < count ? high : count - first;
         const float x = page->box.x + HELP_MARGIN + (page->column + HELP_MARGIN) * (float)c;
         const struct rect r = {x, y, page->column, ROW};
-        show_rows(list, r, keys_width(rows + first, length, page->column), rows + first, length);
+        show_rows(list, page, r, keys_width(page, rows + first, length), rows + first, length);
     }
 }
 
@@ -371,13 +376,13 @@ static void show_headings(struct drawlist *list, const struct dialogs *dialogs, 
             if (about >= page->first[c] && about < page->first[c + 1]) rows[count++] = &commands->commands[i];
         }
         struct rect r = {left + (page->column + HELP_MARGIN) * (float)c, y + page->here, page->column, ROW};
-        const float keys = keys_width(rows, count, page->column);
+        const float keys = keys_width(page, rows, count);
         for (int about = page->first[c], row = 0; about < page->first[c + 1]; about++, row += count) {
             const struct rect heading = {r.x, r.y, r.w, HEADER};
             headed(commands, about, &count);
             paint_line(list, heading, FONT_LABEL_BOLD, theme()->accent, about_titles[about]);
             r.y += HEADER;
-            show_rows(list, r, keys, rows + row, count);
+            show_rows(list, page, r, keys, rows + row, count);
             r.y += ROW * (float)count + GROUP_GAP;
         }
     }
@@ -417,7 +422,7 @@ void lookup_show(const struct dialogs *dialogs)
             const char *name = found.list[i]->name, *missing = found.missing[i];
             const struct rect whole = {body.x, row.y, body.w, row.h};
             char keys[COMMAND_KEYS];
-            command_keys(found.list[i], keys);
+            command_keys(found.list[i], dialogs->core->app.in_page, keys);
             if (i == lookup->choice) {
                 drawlist_rounded(drawn, whole, 4, theme()->fill);
             } else if (rect_contains(whole, core->input.pointer_x, core->input.pointer_y)) {

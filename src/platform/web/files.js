@@ -60,7 +60,7 @@ export function download(FS, path, name = path.slice(path.lastIndexOf('/') + 1))
 /// Calls one of surface.c's functions with a text of any length.
 export function tell(app, call, text, ...more) {
   const copy = app.allocateUTF8(text);
-  copy ? app[`_${call}`](copy, ...more) : app.page.say('There is not enough memory for that.');
+  return copy ? app[`_${call}`](copy, ...more) : app.page.say('There is not enough memory for that.');
 }
 
 /// A file that was dropped or chosen. Its name is valid UTF-8 and one part of a path.

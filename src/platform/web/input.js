@@ -99,9 +99,11 @@ export function listen(canvas, app) {
   const down = new Map();
   addEventListener('keydown', event => {
     if (!event.key) return; // a browser's own filling in of a form
+    if (event.target.closest?.('#bar, dialog')) return; // a button's
     const name = nameOf(event), mods = modsOf(event);
     const typed = event.key.length === 1 && (event.getModifierState('AltGraph') || !(mods & (CTRL | ALT | SUPER)));
     if (event.isComposing || event.key === 'Unidentified' || event.key === 'F12') return; // input events follow, or the browser's tools
+    if (!typed && !tell(app, 'web_keeps', name, mods)) return; // the browser's: Tab at the last field, F5, Ctrl+F
     if (!(mods & CTRL && name === 'V')) event.preventDefault(); // else no paste event comes
     down.set(event.code, name);
     key(name, event.repeat ? REPEAT : PRESS, mods);

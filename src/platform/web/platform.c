@@ -208,6 +208,15 @@ void platform_on_lost(platform_rescue *function, void *user)
     rescue_user = user;
 }
 
+static platform_keeps_key *keeps_key;
+static void *keeps_key_user;
+
+void platform_on_key(platform_keeps_key *function, void *user)
+{
+    keeps_key = function;
+    keeps_key_user = user;
+}
+
 /// A hidden page has no frames, and may never be shown again.
 EMSCRIPTEN_KEEPALIVE void web_hidden(void)
 {
@@ -262,6 +271,14 @@ EMSCRIPTEN_KEEPALIVE void web_key(char *name, int action, unsigned mods)
     free(name);
     if (key != KEY_NONE)
         push((struct event){.kind = EVENT_KEY, .key = key, .action = (enum event_action)action, .mods = mods});
+}
+
+/// Whether a key is the app's, not the browser's.
+EMSCRIPTEN_KEEPALIVE bool web_keeps(char *name, unsigned mods)
+{
+    const int key = key_from_name(name);
+    free(name);
+    return keeps_key && key != KEY_NONE && keeps_key(keeps_key_user, key, mods);
 }
 
 EMSCRIPTEN_KEEPALIVE void web_text(unsigned codepoint)
