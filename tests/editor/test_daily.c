@@ -213,3 +213,14 @@ SESSION_TEST(test_browser_keeps_its_keys, panel_open(s, scene, 1280, 720))
     session_key(s, KEY_F3, 0); // what is typed there keeps Tab and the clipboard's keys
     assert_true(editor_keeps(s->editor, KEY_TAB, 0) && editor_keeps(s->editor, 'F', MOD_CTRL));
 }
+
+/// Nobody knows a browser's home folder.
+SESSION_TEST(test_page_names_no_home, panel_open(s, scene, 1280, 720))
+{
+    setenv("HOME", "/home/web_user", true);
+    tell(s->editor, false, "%s", "Wrote /home/web_user/walk.gif.");
+    assert_said(s->editor, "Wrote /home/web_user/walk.gif.");
+    s->editor->core.app.in_page = true;
+    tell(s->editor, false, "%s", "Wrote /home/web_user/walk.gif, /home/web_user/a.png.");
+    assert_string_equal(said(s->editor), "Wrote walk.gif, a.png.");
+}

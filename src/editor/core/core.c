@@ -294,6 +294,17 @@ struct question *core_ask(struct core *core, const struct answer *answers, int c
     return &core->question;
 }
 
+void core_drop_home(const struct core *core, char *text)
+{
+    const char *home = core->app.in_page ? getenv("HOME") : NULL;
+    const size_t length = home ? strlen(home) : 0;
+    if (length == 0) return;
+    for (char *at = text; (at = strstr(at, home));) {
+        const size_t drop = length + (at[length] == '/');
+        memmove(at, at + drop, strlen(at + drop) + 1);
+    }
+}
+
 void core_message(struct core *core, bool is_error, const char *format, ...)
 {
     char text[2 * sizeof core->message.text];
@@ -301,6 +312,7 @@ void core_message(struct core *core, bool is_error, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    core_drop_home(core, text);
     snprintf(core->message.text, sizeof core->message.text, "%.*s", name_fit(text, sizeof core->message.text - 1),
              text);
     core->message.is_error = is_error;

@@ -680,6 +680,7 @@ bool dialogs_answer(struct dialogs *dialogs, const struct request *request, bool
         dialog_go_on(dialogs, &after);
     } else {
         snprintf(dialog->error, sizeof dialog->error, "%s", text);
+        core_drop_home(dialogs->core, dialog->error);
     }
     return true;
 }
@@ -829,6 +830,7 @@ static void build_list(struct dialogs *dialogs)
                 const float half = floorf(r.w * 0.45f);
                 char folder[PATH_LIMIT];
                 snprintf(folder, sizeof folder, "%.*s", length, recent->path);
+                core_drop_home(dialogs->core, folder);
                 ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, path_name(recent->path),
                          recent->missing ? theme()->text_dim : theme()->text);
                 ui_label_right(ui, (struct rect){r.x + half + UI_GAP, r.y, r.w - half - UI_GAP - 6, r.h},
