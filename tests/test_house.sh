@@ -99,7 +99,7 @@ installs() { # <status> <what> <what is called, or said> <set>...
     expect "$1" "$2" env PATH="$stand_ins" /bin/sh "$script" "${@:4}"
     if [ -z "$3" ]; then none "$2: nothing is done and nothing said" "$(<"$calls")$out"; else says "$2: so it is" "$3" "$(tr '\n' ' ' <"$calls")$out$err"; fi
 }
-apt="-y -qq --no-install-recommends"
+apt="-y -qq -o DPkg::Lock::Timeout=600 --no-install-recommends"
 stand_in apt-get "echo \"\$*\" >>$calls"
 stand_in apt-cache 'exit 0'
 stand_in id 'echo 0'

@@ -97,13 +97,14 @@ else
 fi
 
 quietly="DEBIAN_FRONTEND=noninteractive"
+# Another apt may be at work: this one waits its turn, ten minutes at most.
 install() { # shellcheck disable=SC2046,SC2086
-    $as_root $quietly apt-get install -y -qq --no-install-recommends $(chosen) >/dev/null
+    $as_root $quietly apt-get install -y -qq -o DPkg::Lock::Timeout=600 --no-install-recommends $(chosen) >/dev/null
 }
 echo "Installing:" $missing
 # A fresh system has no package lists yet.
 if ! install 2>/dev/null; then
-    $as_root $quietly apt-get update -qq || true # the installation says what is wrong
+    $as_root $quietly apt-get update -qq -o DPkg::Lock::Timeout=600 || true # the installation says what is wrong
     install || {
         echo "apt-get could not install:" $missing >&2
         exit 3
