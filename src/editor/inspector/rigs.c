@@ -228,8 +228,8 @@ static const struct {
     enum axis axis;
     struct ui_item item;
 } tail_axes[] = {
-    {AXIS_SIDE, {"side", "bend", 0}},
-    {AXIS_UP, {"up", "lift", 0}},
+    {AXIS_SIDE, {"bend", "to the side", 0}},
+    {AXIS_UP, {"lift", "up and down", 0}},
     {AXIS_LOOK, {"look", "turn of the head", 0}},
     {AXIS_NOD, {"nod", "nod of the head", 0}},
     {AXIS_EARS, {"ears", "ears", 0}},
