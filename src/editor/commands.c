@@ -333,7 +333,7 @@ const struct command commands[] = {
 
     GESTURE("Tab, Shift+Tab", "Next, previous field", INSPECTOR, ON_INSPECTOR),
     GESTURE("Arrows", "Change it (Shift: ×10)", INSPECTOR, ON_INSPECTOR),
-    GESTURE("Enter, double-click", "Type a number", INSPECTOR, ON_INSPECTOR),
+    GESTURE("Enter, double-click", "Type a number, +5, *2, 12/24", INSPECTOR, ON_INSPECTOR),
     GESTURE("Alt, in Feel", "The active spline alone", INSPECTOR, 0),
     GESTURE("Del, right-click", "Restore the default", INSPECTOR, ON_INSPECTOR),
     GESTURE("Type in a list", "Search it", INSPECTOR, ON_INSPECTOR),

@@ -252,16 +252,54 @@ static void end_typing(struct ui *ui)
     if (ui->by_pointer) ui->focus = 0;
 }
 
-/// Parses the typed text: "1.5", "1,5" (many keypads type a comma), or "1.5 Hz"; not hexadecimal, not "inf". false, with the reason in
-/// ui->complaint, if it is no number or out of range.
+/// A number; not hexadecimal, not "inf".
+static bool read_number(const char **at, double *number)
+{
+    char *end;
+    *at += strspn(*at, " ");
+    *number = strtod(*at, &end);
+    const size_t length = (size_t)(end - *at);
+    const bool found = length > 0 && length <= strspn(*at, "+-.0123456789eE");
+    *at = end;
+    return found;
+}
+
+/// A number, or a sum of products; one that begins with +, * or / goes on from `value`.
+static bool calculate(const char **at, double value, double *result)
+{
+    double sum = 0, product = value, number;
+    *at += strspn(*at, " ");
+    bool good = (**at && strchr("+*/", **at)) || read_number(at, &product);
+    while (good) {
+        *at += strspn(*at, " ");
+        const char operation = **at;
+        if (!operation || !strchr("+-*/", operation)) break;
+        ++*at;
+        good = read_number(at, &number);
+        if (operation == '*') {
+            product *= number;
+        } else if (operation == '/') {
+            product /= number;
+        } else {
+            sum += product;
+            product = operation == '+' ? number : -number;
+        }
+    }
+    *result = sum + product;
+    return good && isfinite(*result);
+}
+
+/// Parses the typed text: "1.5", "1,5" (many keypads type a comma), "1.5 Hz", "12/24", or from the present value on "+5" and "*2". false, with
+/// the reason in ui->complaint, if it is no number or out of range.
 static bool take_typed(struct ui *ui, const struct ui_number *number, double *value)
 {
     const char *what = number->label ? number->label : number->name, *text = ui->text.bytes;
-    char copy[UI_TEXT_SIZE], range[64], *comma, *end;
-    snprintf(copy, sizeof copy, "%s", text + strspn(text, " "));
-    if ((comma = strchr(copy, ','))) *comma = '.';
-    const double typed = strtod(copy, &end);
-    const bool found = end > copy && (size_t)(end - copy) <= strspn(copy, "+-.0123456789eE") && isfinite(typed);
+    char copy[UI_TEXT_SIZE], range[64];
+    const char *end = copy;
+    double typed;
+    snprintf(copy, sizeof copy, "%s", text);
+    for (char *comma = copy; (comma = strchr(comma, ','));) *comma = '.';
+    const bool found = calculate(&end, *value, &typed);
     const size_t unit = number->unit ? strlen(number->unit) : 0;
     end += strspn(end, " ");
     if (unit && strncmp(end, number->unit, unit) == 0) end += unit;

@@ -224,3 +224,22 @@ SESSION_TEST(test_page_names_no_home, panel_open(s, scene, 1280, 720))
     tell(s->editor, false, "%s", "Wrote /home/web_user/walk.gif, /home/web_user/a.png.");
     assert_string_equal(said(s->editor), "Wrote walk.gif, a.png.");
 }
+
+/// A number field calculates; + * and / go on from the value that it has.
+SESSION_TEST(test_fields_calculate, panel_open(s, scene, 1280, 720))
+{
+    static const struct {
+        const char *typed;
+        double frequency; ///< which was 1.5; 0: refused
+    } rows[] = {{"2", 2},       {"+1", 2.5},  {"*2", 3},     {"/3", 0.5},   {"12/24", 0.5},   {"+-0.5", 1},
+                {"1+2*1,5", 4}, {"3 - 1", 2}, {"* 2 Hz", 3}, {"1e0", 1},    {"+1,25/0,5", 4}, {"0x2", 0},
+                {"1/0", 0},     {"+", 0},     {"2*", 0},     {"2 Hz*2", 0}, {"1+-+2", 0},     {"inf", 0}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        panel_enter(s, "frequency", "1.5");
+        panel_enter(s, "frequency", rows[i].typed);
+        const double expected = rows[i].frequency > 0 ? rows[i].frequency : 1.5;
+        const double got = s->document->splines[0]->parameter[PARAMETER_FREQUENCY].value;
+        if (fabs(got - expected) > 1e-12) fail_msg("1.5, then “%s”: %g, expected %g", rows[i].typed, got, expected);
+        session_key(s, KEY_ESCAPE, 0);
+    }
+}
