@@ -4,7 +4,7 @@
 #include <string.h>
 
 static const double DOUBLE_CLICK_SECONDS = 0.35;
-static const float DOUBLE_CLICK_PIXELS = 4.0f;
+static const float DOUBLE_CLICK_PIXELS = 4, DOUBLE_TAP_PIXELS = 24; // a finger is wide
 
 void event_queue_push(struct event_queue *queue, const struct event *event)
 {
@@ -39,11 +39,12 @@ const struct event *event_queue_take(struct event_queue *queue, int *count)
     return full->events;
 }
 
-int clicks_count(struct clicks *clicks, enum event_button button, float x, float y, double now)
+int clicks_count(struct clicks *clicks, const struct event *press, double time)
 {
     const struct clicks last = *clicks;
-    const bool again = last.open && now - last.time <= DOUBLE_CLICK_SECONDS && last.button == button &&
-                       hypotf(x - last.x, y - last.y) <= DOUBLE_CLICK_PIXELS;
-    *clicks = (struct clicks){.open = !again, .time = now, .x = x, .y = y, .button = button};
+    const bool again =
+        last.open && time - last.time <= DOUBLE_CLICK_SECONDS && last.button == press->button &&
+        hypotf(press->x - last.x, press->y - last.y) <= (press->finger ? DOUBLE_TAP_PIXELS : DOUBLE_CLICK_PIXELS);
+    *clicks = (struct clicks){.open = !again, .time = time, .x = press->x, .y = press->y, .button = press->button};
     return again ? 2 : 1;
 }

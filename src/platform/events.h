@@ -38,6 +38,6 @@ struct clicks {
 };
 
 /// 2 for a press soon after another at the same place; a third counts as 1.
-int clicks_count(struct clicks *clicks, enum event_button button, float x, float y, double now);
+int clicks_count(struct clicks *clicks, const struct event *press, double time);
 
 #endif

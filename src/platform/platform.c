@@ -408,8 +408,7 @@ static void on_button(GLFWwindow *handle, int glfw_button, int action, int glfw_
     struct event event = {
         .kind = EVENT_BUTTON, .button = button, .action = action_of(action), .mods = mods_of(glfw_mods), .clicks = 1};
     pointer_place(window, &event.x, &event.y);
-    if (event.action == ACTION_PRESS)
-        event.clicks = clicks_count(&window->clicks, button, event.x, event.y, clock_now());
+    if (event.action == ACTION_PRESS) event.clicks = clicks_count(&window->clicks, &event, clock_now());
     push(window, event);
 }
 

@@ -45,7 +45,7 @@ export function listen(canvas, app) {
     } catch { /* it was lifted already */ }
   });
   for (const [name, action] of [['mousedown', PRESS], ['mouseup', RELEASE]])
-    canvas.addEventListener(name, event => { if (event.button < 3) app._web_button(BUTTONS[event.button], action, modsOf(event), ...place(event)); });
+    canvas.addEventListener(name, event => { if (event.button < 3) app._web_button(BUTTONS[event.button], action, modsOf(event), event.timeStamp, ...place(event)); });
   canvas.addEventListener('mousemove', event => app._web_pointer(...place(event), modsOf(event)));
   canvas.addEventListener('contextmenu', event => event.preventDefault());
   canvas.addEventListener('wheel', event => {
@@ -60,8 +60,8 @@ export function listen(canvas, app) {
   let held = null; // LEFT, MIDDLE or null
   let waits = null; // where a single finger was put down, until it is the left button
   const middle = () => { const all = [...fingers.values()]; return [0, 1].map(k => all.reduce((sum, at) => sum + at[k], 0) / all.length); };
-  const press = (button, at) => { [held, waits] = [button, null]; app._web_button(button, PRESS, FINGER, ...at); };
-  const release = at => { if (held !== null) app._web_button(held, RELEASE, FINGER, ...at); held = null; };
+  const press = (button, at, time) => { [held, waits] = [button, null]; app._web_button(button, PRESS, FINGER, time, ...at); };
+  const release = at => { if (held !== null) app._web_button(held, RELEASE, FINGER, 0, ...at); held = null; };
   const spread = () => { const [a, b] = [...fingers.values()]; return [Math.hypot(b[0] - a[0], b[1] - a[1]), Math.atan2(b[1] - a[1], b[0] - a[0])]; };
   canvas.addEventListener('pointerdown', event => {
     if (!isFinger(event) || fingers.size === 2) return;
@@ -71,7 +71,7 @@ export function listen(canvas, app) {
     fingers.set(event.pointerId, place(event));
     app._web_pointer(...middle(), FINGER);
     if (fingers.size === 1) waits = middle();
-    else press(MIDDLE, middle());
+    else press(MIDDLE, middle(), event.timeStamp);
   });
   canvas.addEventListener('pointermove', event => {
     if (!fingers.has(event.pointerId)) return;
@@ -79,7 +79,7 @@ export function listen(canvas, app) {
     fingers.set(event.pointerId, place(event));
     const at = middle();
     if (waits && Math.hypot(at[0] - waits[0], at[1] - waits[1]) < STILL) return;
-    if (waits) press(LEFT, waits);
+    if (waits) press(LEFT, waits, event.timeStamp);
     app._web_pointer(...at, FINGER);
     if (!two) return;
     const [distance, angle] = spread();
@@ -90,7 +90,7 @@ export function listen(canvas, app) {
     if (!fingers.has(event.pointerId)) return;
     const at = middle();
     fingers.delete(event.pointerId);
-    if (waits && name === 'pointerup') press(LEFT, waits);
+    if (waits && name === 'pointerup') press(LEFT, waits, event.timeStamp);
     waits = null;
     release(at); // a finger that stays does nothing more
   });
@@ -129,11 +129,11 @@ export function listen(canvas, app) {
     else type(event.data ?? '');
   });
   const bar = document.getElementById('bar');
-  bar.addEventListener('pointerdown', event => {
-    const { key: name, mods } = event.target.closest('button')?.dataset ?? {};
-    if (name) event.preventDefault(); // the canvas keeps the focus
+  bar.addEventListener('pointerdown', event => event.preventDefault()); // the canvas keeps the focus
+  bar.addEventListener('click', event => { // not earlier: a finger may scroll the bar
+    const { key: name, mods, does } = event.target.closest('button')?.dataset ?? {};
     if (name) tap(name, Number(mods ?? 0));
+    if (does) field.focus();
   });
-  bar.addEventListener('click', event => event.target.closest('[data-does]') && field.focus()); // earlier, the button would take the focus
   focus();
 }

@@ -244,7 +244,8 @@ EMSCRIPTEN_KEEPALIVE void web_pointer(float x, float y, unsigned mods)
     push((struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = mods & ~FINGER, .finger = mods & FINGER});
 }
 
-EMSCRIPTEN_KEEPALIVE void web_button(int button, int action, unsigned mods, float x, float y)
+/// `time`: milliseconds, when the browser saw it; a slow frame may lie between.
+EMSCRIPTEN_KEEPALIVE void web_button(int button, int action, unsigned mods, double time, float x, float y)
 {
     struct event event = {.kind = EVENT_BUTTON,
                           .button = (enum event_button)button,
@@ -254,8 +255,7 @@ EMSCRIPTEN_KEEPALIVE void web_button(int button, int action, unsigned mods, floa
                           .x = x,
                           .y = y,
                           .clicks = 1};
-    if (shown && event.action == ACTION_PRESS)
-        event.clicks = clicks_count(&shown->clicks, event.button, x, y, clock_now());
+    if (shown && event.action == ACTION_PRESS) event.clicks = clicks_count(&shown->clicks, &event, 1e-3 * time);
     push(event);
 }
 
