@@ -359,6 +359,7 @@ const struct command commands[] = {
     COMMAND("Any command, by typing", WINDOW, 0, NOTHING, FIRST | ANY_TIME, .run = run_show, SHOW_PALETTE,
             {KEY_F3, 0}),
     COMMAND("Present: the stage alone", WINDOW, 0, NOTHING, 0, .core = presenter_toggle, 0, {KEY_F5, 0}),
+    GESTURE("Right-click", "A menu of what can be done there", WINDOW, 0),
     GESTURE("Tab", "Panels, while presenting", WINDOW, 0),
     COMMAND("Resize the stage", WINDOW, 0, NOTHING, 0, .run = run_panel, 0, {KEY_F6, 0}),
     COMMAND("Resize the inspector", WINDOW, 0, NOTHING, 0, .run = run_panel, 1, {KEY_F6, SHIFT}),

@@ -442,6 +442,7 @@ static void pass_on(struct editor *editor, const struct event *event)
             drag_begin(&editor->core, &divider_drags[divider], NULL, NULL, event);
         } else if (panel == PANEL_CURVES) {
             curves_press(editor->curves, &editor->core, event);
+            if (event->button == BUTTON_RIGHT) dialogs_menu(editor->dialogs);
         } else if (panel == PANEL_STAGE) {
             stage_press(editor->stage, &editor->core, event);
         } else {
@@ -506,6 +507,9 @@ void editor_event(struct editor *editor, const struct event *event)
         tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     dialogs_note(editor->dialogs, event);
+    const struct drag *drag = &core->input.drag; // on the stage, the right button orbits if it moves
+    const bool asks_menu = is_button && event->action == ACTION_RELEASE && event->button == BUTTON_RIGHT &&
+                           drag->owner && drag->room == editor->stage && drag->button == BUTTON_RIGHT && !drag->moved;
     if (event->kind == EVENT_TEXT && editor->press.opened) return;
     bool used = (!dialogs_are_asking(editor->dialogs) && keys_first(editor, event)) ||
                 dialogs_event(editor->dialogs, event) || drag_event(core, event) ||
@@ -515,6 +519,7 @@ void editor_event(struct editor *editor, const struct event *event)
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
     if (!used) pass_on(editor, event);
+    if (asks_menu) dialogs_menu(editor->dialogs);
     const struct command *chosen = dialogs_take_command(editor->dialogs);
     if (chosen) command_run(editor, chosen);
     end_event(editor);

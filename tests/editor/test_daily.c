@@ -243,3 +243,34 @@ SESSION_TEST(test_fields_calculate, panel_open(s, scene, 1280, 720))
         session_key(s, KEY_ESCAPE, 0);
     }
 }
+
+/// A right-click lists what can be done there; Enter runs the first, and typing goes on in the palette.
+SESSION_TEST(test_right_click_is_a_menu, panel_open(s, scene, 1280, 720))
+{
+    session_point(s, "knot(sway,1)");
+    session_press(s, BUTTON_RIGHT, 1);
+    session_release(s, BUTTON_RIGHT);
+    assert_int_equal(looked_up(s->editor), LOOKUP_MENU);
+    assert_int_equal(selected(s->editor), 1);
+    assert_true(session_shows(s, "Delete the selection") && session_shows(s, "Scale the selection"));
+    assert_false(session_shows(s, "Go to the start") || session_shows(s, "Undo"));
+    session_key(s, KEY_ENTER, 0);
+    assert_int_equal(s->document->splines[0]->knot_count, 1);
+    session_point(s, "ruler(50)");
+    session_press(s, BUTTON_RIGHT, 1);
+    session_release(s, BUTTON_RIGHT);
+    assert_true(session_shows(s, "Play from here"));
+    panel_type(s, "undo");
+    session_key(s, KEY_ENTER, 0);
+    assert_int_equal(s->document->splines[0]->knot_count, 2);
+    session_point(s, "stage(0.5,0.5)");
+    session_press(s, BUTTON_RIGHT, 1);
+    session_drag(s, 30, 0, 3); // orbits
+    session_release(s, BUTTON_RIGHT);
+    assert_int_equal(looked_up(s->editor), LOOKUP_NONE);
+    session_press(s, BUTTON_RIGHT, 1);
+    session_release(s, BUTTON_RIGHT);
+    assert_true(session_shows(s, "Onion skin"));
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(looked_up(s->editor), LOOKUP_NONE);
+}

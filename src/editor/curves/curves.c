@@ -643,8 +643,17 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
         drag_begin(core, &panning, curves, NULL, event);
         return;
     }
-    if (event->button != BUTTON_LEFT) return;
     const struct hover hover = curves_hover(curves, core, event->x, event->y);
+    if (event->button == BUTTON_RIGHT) { // what the menu acts on
+        core->input.hover = hover;
+        if (hover.thing == &thing_knot && !selection_has(&core->focus.selection, hover.knot)) {
+            core_activate(core, hover.spline);
+            selection_clear(&core->focus.selection);
+            selection_set(&core->focus.selection, hover.knot, true);
+        }
+        if (hover.thing == &thing_curve) core_choose(core, hover.spline);
+        return;
+    }
     if (hover.thing != &thing_pin_time && hover.thing != &thing_ruler) pins_clear(core);
     if (hover.thing) {
         hover.thing->press(curves, core, &hover, event);

@@ -39,7 +39,9 @@ bool dialogs_are_asking(const struct dialogs *dialogs);
 void dialogs_help(struct dialogs *dialogs);
 /// Opens or closes the command palette (F3).
 void dialogs_palette(struct dialogs *dialogs);
-/// Takes the command chosen in the palette; NULL: none.
+/// Opens the menu of what can be done at the pointer. Typing goes on in the palette.
+void dialogs_menu(struct dialogs *dialogs);
+/// Takes the command chosen in the palette or menu; NULL: none.
 const struct command *dialogs_take_command(struct dialogs *dialogs);
 /// Whether an overlay is open.
 bool dialogs_cover(const struct dialogs *dialogs);

@@ -28,7 +28,8 @@ enum {
     PALETTE_ROWS = 12,
     PALETTE_FIELD = 34,
     PALETTE_PAD = 12,
-    PALETTE_GAP = 16
+    PALETTE_GAP = 16,
+    MENU_ROWS = 8
 };
 
 enum {
@@ -71,6 +72,17 @@ static struct page palette_page(const struct commands_found *found, struct rect 
     page.field = (struct rect){page.box.x + PALETTE_PAD, top + PALETTE_PAD, w - 2 * PALETTE_PAD, PALETTE_FIELD};
     page.body =
         (struct rect){page.field.x, page.field.y + PALETTE_FIELD + PALETTE_PAD, page.field.w, rows * PALETTE_ROW};
+    return page;
+}
+
+static struct page menu_page(const struct commands_found *found, const float corner[2], struct rect window)
+{
+    enum { WIDTH = 320, PAD = 6 };
+    const float rows = fmaxf((float)found->count, 1), h = rows * PALETTE_ROW + 2 * PAD;
+    struct page page = {.view = rows, .content = rows};
+    page.box = (struct rect){fmaxf(fminf(corner[0], window.x + window.w - WIDTH), window.x),
+                             fmaxf(fminf(corner[1], window.y + window.h - h), window.y), WIDTH, h};
+    page.body = (struct rect){page.box.x + PAD, page.box.y + PAD, WIDTH - 2 * PAD, rows * PALETTE_ROW};
     return page;
 }
 
@@ -148,7 +160,7 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
     const struct command *commands = dialogs->commands.commands;
     const int count = dialogs->commands.count;
     const struct ui_filter *filter = &dialogs->lookup.filter;
-    const bool runs = dialogs->lookup.kind == LOOKUP_PALETTE;
+    const bool menu = dialogs->lookup.kind == LOOKUP_MENU, runs = menu || dialogs->lookup.kind == LOOKUP_PALETTE;
     const char *missing[NEEDS_COUNT];
     enum fit fits[COMMANDS_MOST], best = FIT_NOT;
     for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = runs ? need_missing(core, need) : NULL;
@@ -157,6 +169,7 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
         char keys[COMMAND_KEYS], text[160];
         fits[i] = FIT_NOT;
         if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
+        if (menu && (!(command->at & dialogs->lookup.at) || missing[command->needs])) continue;
         command_keys(command, core->app.in_page, keys); // its keys also find it
         snprintf(text, sizeof text, "%s %s", command->name, command->also ? command->also : "");
         fits[i] = ui_filter_fit(filter, text);
@@ -177,8 +190,11 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
             }
         }
     }
-    struct page page =
-        runs ? palette_page(found, core->view.layout.window) : keys_page(dialogs, found, core->view.layout.window);
+    if (menu && found->count > MENU_ROWS) found->count = MENU_ROWS;
+    const struct rect window = core->view.layout.window;
+    struct page page = menu   ? menu_page(found, dialogs->lookup.corner, window)
+                       : runs ? palette_page(found, window)
+                              : keys_page(dialogs, found, window);
     page.in_page = core->app.in_page;
     return page;
 }
@@ -192,7 +208,8 @@ static void flip_lookup(struct dialogs *dialogs, struct lookup opened)
     dialogs->welcome &= !open;
 }
 
-void dialogs_help(struct dialogs *dialogs)
+/// Opens it for the place under the pointer.
+static void flip_here(struct dialogs *dialogs, enum lookup_kind kind)
 {
     const struct core *core = dialogs->core;
     static const enum place places[] = {[PANEL_NONE] = ON_STAGE,
@@ -201,10 +218,14 @@ void dialogs_help(struct dialogs *dialogs)
                                         [PANEL_INSPECTOR] = ON_INSPECTOR,
                                         [PANEL_STATUS] = ON_TIME};
     const struct thing *thing = core->input.hover.thing;
-    const enum panel panel = core_panel_at(core, core->input.pointer_x, core->input.pointer_y);
-    const enum place at = thing && thing->place ? thing->place : places[panel];
-    flip_lookup(dialogs, (struct lookup){.kind = LOOKUP_KEYS, .at = at});
+    const float x = core->input.pointer_x, y = core->input.pointer_y;
+    const enum place at = thing && thing->place ? thing->place : places[core_panel_at(core, x, y)];
+    flip_lookup(dialogs, (struct lookup){.kind = kind, .at = at, .corner = {x, y}});
 }
+
+void dialogs_help(struct dialogs *dialogs) { flip_here(dialogs, LOOKUP_KEYS); }
+
+void dialogs_menu(struct dialogs *dialogs) { flip_here(dialogs, LOOKUP_MENU); }
 
 void dialogs_palette(struct dialogs *dialogs) { flip_lookup(dialogs, (struct lookup){.kind = LOOKUP_PALETTE}); }
 
@@ -284,9 +305,10 @@ bool lookup_event(struct dialogs *dialogs, const struct event *event)
     if (ui_filter_event(&lookup->filter, &meant)) {
         lookup->choice = 0;
         lookup->list.offset = 0;
+        if (lookup->kind == LOOKUP_MENU) lookup->kind = LOOKUP_PALETTE;
     } else if (key && meant.key == KEY_ESCAPE) {
         lookup->kind = LOOKUP_NONE;
-    } else if (lookup->kind == LOOKUP_PALETTE) {
+    } else if (lookup->kind != LOOKUP_KEYS) {
         palette_event(lookup, &page, &found, &meant);
     } else if (press && (meant.kind == EVENT_BUTTON || meant.key == KEY_ENTER)) {
         lookup->kind = LOOKUP_NONE;
@@ -388,32 +410,38 @@ static void show_headings(struct drawlist *list, const struct dialogs *dialogs, 
     }
 }
 
+/// Draws a field with its text, or what it is for.
+static void show_field(struct drawlist *drawn, struct rect field, const char *text, const char *empty)
+{
+    const bool typed = text[0] != '\0';
+    const float end = field.x + 10 + font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
+    drawlist_rounded(drawn, field, 4, theme()->raised);
+    drawlist_rounded_line(drawn, field, 4, 1.5f, theme()->accent);
+    paint_line(drawn, (struct rect){field.x + (typed ? 10 : 14), field.y, field.w - 20, field.h}, FONT_LABEL,
+               typed ? theme()->text : theme()->text_dim, typed ? text : empty);
+    drawlist_rect(drawn, (struct rect){roundf(fminf(end, field.x + field.w - 10)), field.y + 8, 1, field.h - 16},
+                  theme()->accent);
+}
+
 void lookup_show(const struct dialogs *dialogs)
 {
     struct core *core = dialogs->core;
     const struct lookup *lookup = &dialogs->lookup;
-    const bool is_palette = lookup->kind == LOOKUP_PALETTE, typed = lookup->filter.typed[0] != '\0';
+    const bool is_menu = lookup->kind == LOOKUP_MENU, is_palette = lookup->kind != LOOKUP_KEYS;
+    const bool typed = lookup->filter.typed[0] != 0;
     struct drawlist *drawn = &core->list;
     struct commands_found found;
     if (!lookup->kind) return;
     const struct page page = lookup_page(dialogs, &found);
     struct ui_list list = lookup->list;
     ui_list_fit(&list, page.view, page.content);
-    drawlist_rect(drawn, core->view.layout.window, theme()->veil);
+    if (!is_menu) drawlist_rect(drawn, core->view.layout.window, theme()->veil);
     drawlist_rounded(drawn, page.box, 8, theme()->panel);
     drawlist_rounded_line(drawn, page.box, 8, 1, theme()->zero);
 
-    // The field with its text, or what it is for.
     const struct rect field = page.field;
-    const float end = field.x + 10 + font_width(FONT_LABEL, THEME_TEXT_NORMAL, lookup->filter.typed);
-    const char *empty = is_palette ? "Type what you want to do" : "Type to search";
-    drawlist_rounded(drawn, field, 4, theme()->raised);
-    drawlist_rounded_line(drawn, field, 4, 1.5f, theme()->accent);
-    paint_line(drawn, (struct rect){field.x + (typed ? 10 : 14), field.y, field.w - 20, field.h}, FONT_LABEL,
-               typed ? theme()->text : theme()->text_dim, typed ? lookup->filter.typed : empty);
-    drawlist_rect(drawn, (struct rect){roundf(fminf(end, field.x + field.w - 10)), field.y + 8, 1, field.h - 16},
-                  theme()->accent);
-
+    if (!is_menu)
+        show_field(drawn, field, lookup->filter.typed, is_palette ? "Type what you want to do" : "Type to search");
     const struct rect body = page.body;
     if (is_palette) {
         struct rect row = {body.x + 10, body.y, body.w - 20, PALETTE_ROW};
@@ -439,7 +467,8 @@ void lookup_show(const struct dialogs *dialogs)
                        missing);
         }
         if (found.count == 0)
-            paint_line(drawn, row, FONT_LABEL, theme()->text_dim, "No command matches. Esc closes.");
+            paint_line(drawn, row, FONT_LABEL, theme()->text_dim,
+                       is_menu ? "Nothing can be done here now." : "No command matches. Esc closes.");
         return;
     }
 

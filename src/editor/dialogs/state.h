@@ -11,14 +11,15 @@ struct command_list {
     int count;
 };
 
-/// What lists the commands: with their keys (F1), or to run them (F3).
-enum lookup_kind { LOOKUP_NONE, LOOKUP_KEYS, LOOKUP_PALETTE };
+/// What lists the commands: with their keys (F1), or to run them (F3, or for a place by a right-click).
+enum lookup_kind { LOOKUP_NONE, LOOKUP_KEYS, LOOKUP_PALETTE, LOOKUP_MENU };
 
 struct lookup {
     enum lookup_kind kind; ///< the open one
     struct ui_filter filter;
     struct ui_list list;          ///< F1: in pixels; palette: in rows
-    unsigned at;                  ///< F1: enum place under the pointer when it opened
+    unsigned at;                  ///< F1, menu: enum place under the pointer when it opened
+    float corner[2];              ///< menu: where it opened
     int choice;                   ///< palette: the row that Enter runs
     const struct command *chosen; ///< command to run, or NULL
     bool held, moved;             ///< a button is pressed, and has scrolled

@@ -128,7 +128,8 @@ static bool is_on_rig(const struct hover *hover)
 void stage_click(void *room, struct core *core, bool keep)
 {
     const struct stage *stage = room;
-    if (core->input.drag.moved || core->input.drag.button != BUTTON_LEFT || !keep) return;
+    const bool menu = core->input.drag.button == BUTTON_RIGHT && is_on_rig(&stage->pressed);
+    if (core->input.drag.moved || (core->input.drag.button != BUTTON_LEFT && !menu) || !keep) return;
     const bool shows = is_on_rig(&stage->pressed) && core->focus.pick.use == BONE_SELECTED;
     bone_click(stage, core);
     if (shows) core->show_clicked(core->inspector, stage->pressed.rig);
