@@ -65,7 +65,7 @@ static void run_hold(struct editor *e, int argument)
     stage_hold_point(e->stage, &e->core);
 }
 
-enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
+enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_DUPLICATE, CLIPBOARD_PASTE /* + enum paste */ };
 
 /// Not while a value is typed: Ctrl+C then copies text.
 static void run_clipboard(struct editor *e, int argument)
@@ -73,7 +73,8 @@ static void run_clipboard(struct editor *e, int argument)
     if (inspector_ui(e->inspector)->typing) return;
     if (argument == CLIPBOARD_DUPLICATE) {
         core_duplicate_knots(&e->core);
-    } else if (argument == CLIPBOARD_PASTE) {
+    } else if (argument >= CLIPBOARD_PASTE) {
+        e->core.input.paste = (enum paste)(argument - CLIPBOARD_PASTE);
         core_request(&e->core, &(struct request){.kind = REQUEST_PASTE});
     } else if (core_copy_knots(&e->core, argument == CLIPBOARD_CUT)) {
         core_request(&e->core, &(struct request){.kind = REQUEST_COPY, .text = e->core.clipboard});
@@ -210,6 +211,8 @@ const struct command commands[] = {
     COMMAND("Copy", KNOTS, ON_KNOT, SELECTED, 0, .run = run_clipboard, CLIPBOARD_COPY, {'C', CTRL}),
     COMMAND("Cut", KNOTS, 0, SELECTED, 0, .run = run_clipboard, CLIPBOARD_CUT, {'X', CTRL}),
     COMMAND("Paste at the playhead", KNOTS, 0, SPLINE, 0, .run = run_clipboard, CLIPBOARD_PASTE, {'V', CTRL}),
+    COMMAND("Paste in place", KNOTS, 0, SPLINE, 0, .run = run_clipboard, CLIPBOARD_PASTE + PASTE_IN_PLACE,
+            {'V', CTRL_SHIFT}),
     ALSO("repeat", "Duplicate after the selection", KNOTS, 0, SELECTED, 0, .run = run_clipboard, CLIPBOARD_DUPLICATE,
          {'D', CTRL}),
     ALSO("retime stretch duration length reverse flip time", "Scale the selection", KNOTS, ON_KNOT, SELECTED, 0,
@@ -401,6 +404,10 @@ const struct command commands[] = {
     ALSO("fps duration length frames", "Unfold Scene: frame rate, range", NOTHING, 0, NOTHING, 0,
          .section = "section.scene", 0, {0}),
     PALETTE("Unfold History", NOTHING, .section = "section.history", 0),
+    ALSO("flip invert", "Paste mirrored", NOTHING, 0, SPLINE, 0, .run = run_clipboard,
+         CLIPBOARD_PASTE + PASTE_MIRRORED, {0}),
+    ALSO("flip invert negative", "Mirror the selection about zero", NOTHING, 0, SELECTED, 0,
+         .core = core_mirror_knots, 0, {0}),
     PALETTE("Add a tail", NOTHING, .inspector = inspector_add, ADD_TAIL),
     ALSO("import load", "Add a character or model from a file", NOTHING, 0, NOTHING, 0, .inspector = inspector_add,
          ADD_FILE, {0}),

@@ -274,3 +274,39 @@ SESSION_TEST(test_right_click_is_a_menu, panel_open(s, scene, 1280, 720))
     session_key(s, KEY_ESCAPE, 0);
     assert_int_equal(looked_up(s->editor), LOOKUP_NONE);
 }
+
+/// Paste in place keeps the frames, paste mirrored turns the values over, once; a selection is mirrored over all its splines.
+SESSION_TEST(test_paste_in_place_and_mirrored, panel_open(s, scene, 1280, 720))
+{
+    static const struct {
+        const char *command;
+        double frame, value; ///< of the pasted knot
+    } rows[] = {{"Paste at the pl", 90, 1},
+                {"Paste in place", 40, 1},
+                {"Paste mirrored", 90, -1},
+                {"Paste at the pl", 90, 1}};
+    session_click(s, "knot(sway,1)");
+    session_key(s, 'C', MOD_CTRL);
+    char *copied = strdup(session_asked(s).text);
+    session_key(s, KEY_DELETE, 0);
+    seek(s->editor, 90);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        session_key(s, KEY_F3, 0);
+        panel_type(s, rows[i].command);
+        session_key(s, KEY_ENTER, 0);
+        session_send(s, (struct event){.kind = EVENT_PASTE, .text = copied});
+        const struct knot *knot = &s->document->splines[0]->knots[1];
+        if (knot->frame != rows[i].frame || knot->value != rows[i].value)
+            fail_msg("%s: %g at frame %g", rows[i].command, knot->value, knot->frame);
+        session_key(s, 'Z', MOD_CTRL);
+    }
+    free(copied);
+    session_key(s, 'Z', MOD_CTRL);
+    session_key(s, 'A', MOD_CTRL);
+    const char *before = session_saved(s);
+    session_key(s, KEY_F3, 0);
+    panel_type(s, "mirror the sel");
+    session_key(s, KEY_ENTER, 0);
+    assert_near(s->document->splines[0]->knots[1].value, -1, 0);
+    assert_one_step(s, before);
+}

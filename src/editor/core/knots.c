@@ -334,6 +334,32 @@ bool core_copy_knots(struct core *core, bool cut)
     return true;
 }
 
+/// The knot upside down: its value, slope and phase, about zero.
+static struct knot mirrored(const struct knot *knot)
+{
+    struct knot turned = *knot;
+    turned.value = -knot->value;
+    turned.slope = -knot->slope;
+    turned.phase = -knot->phase;
+    return turned;
+}
+
+static struct knot mirrored_original(const void *how, const struct original *original)
+{
+    (void)how;
+    return mirrored(&original->knot);
+}
+
+void core_mirror_knots(struct core *core, int unused)
+{
+    char why[STOPPED_SIZE] = "";
+    (void)unused;
+    if (collect(core) == 0 || !core_step(core, "Mirror knots", 0)) return;
+    originals_put(core, mirrored_original, NULL, why);
+    core_edited(core, -1);
+    if (*why) core_stopped(core, why);
+}
+
 /// Inserts a shifted copy of a knot in the open step.
 static bool insert_copy(struct core *core, int spline, const struct knot *knot, double shift)
 {
@@ -358,6 +384,8 @@ void core_paste_knots(struct core *core, const char *text)
     const struct document *document = core->document;
     struct knot_list list;
     struct error error;
+    const enum paste paste = core->input.paste;
+    core->input.paste = PASTE_HERE;
     if (!core_active_spline(core) || history_is_open(core->history)) return; // pasted text may come during a drag
     if (!text || !text[strspn(text, " \t\r\n")]) {
         core_message(core, false, "The clipboard has no text.");
@@ -371,12 +399,13 @@ void core_paste_knots(struct core *core, const char *text)
     double first = list.knots[0].frame;
     bool good = true;
     for (int k = 1; k < list.count; k++) first = fmin(first, list.knots[k].frame);
-    const double shift = round(core_frame(core)) - first;
+    const double shift = paste == PASTE_IN_PLACE ? 0 : round(core_frame(core)) - first;
     core_step(core, list.count == 1 ? "Paste knot" : "Paste knots", 0);
     for (int k = 0; k < list.count && good; k++) {
         const char *name = list.splines ? list.splines[k] : NULL;
         const int named = name ? document_find_spline(document, name) : -1;
-        good = insert_copy(core, named >= 0 ? named : core->focus.active, &list.knots[k], shift);
+        const struct knot knot = paste == PASTE_MIRRORED ? mirrored(&list.knots[k]) : list.knots[k];
+        good = insert_copy(core, named >= 0 ? named : core->focus.active, &knot, shift);
     }
     if (good) select_from(core, first_id);
     if (good) say_count(core, "Pasted", list.count);

@@ -30,7 +30,10 @@ void slopes_set(struct core *core, int how);
 
 /// Copies the selected knots as text; `cut` also deletes them. false if none is selected.
 bool core_copy_knots(struct core *core, bool cut);
-/// Pastes knots, the first at the playhead with the others at their distances, and selects them. If one does not fit, none is pasted.
+/// Turns the selected knots upside down about zero.
+void core_mirror_knots(struct core *core, int unused);
+/// Pastes knots, the first at the playhead with the others at their distances, and selects them; at their own frames or upside down if
+/// input.paste says so, once. If one does not fit, none is pasted.
 void core_paste_knots(struct core *core, const char *text);
 /// Inserts copies of the selected knots after them and selects the copies.
 void core_duplicate_knots(struct core *core);

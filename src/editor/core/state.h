@@ -300,6 +300,9 @@ struct focus {
     struct brush brush;
 };
 
+/// Where the next pasted knots go: to the playhead, to their own frames, or upside down to the playhead.
+enum paste { PASTE_HERE, PASTE_IN_PLACE, PASTE_MIRRORED };
+
 /// The pointer and held keys.
 struct input {
     float pointer_x, pointer_y;
@@ -308,6 +311,7 @@ struct input {
     int held_key;   ///< F Z B C L K while held, else 0
     bool held_used; ///< with an arrow
     bool space_down, space_used;
+    enum paste paste; ///< until it comes
     struct drag drag;
     struct hover hover;
 };
