@@ -114,6 +114,15 @@ static void run_orbit(struct editor *editor, int way)
     camera_orbit(&editor->core.view.camera, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
 }
 
+enum { FROM_FRONT, FROM_SIDE, FROM_TOP };
+
+static void run_view(struct editor *editor, int from)
+{
+    struct camera *camera = &editor->core.view.camera;
+    camera->azimuth = from == FROM_SIDE ? 0 : -(float)M_PI / 2; // the front looks along +z
+    camera->elevation = from == FROM_TOP ? CAMERA_MAX_ELEVATION : 0;
+}
+
 static void run_approach(struct editor *editor, int direction)
 {
     camera_zoom(&editor->core.view.camera, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
@@ -304,7 +313,8 @@ const struct command commands[] = {
          {'A', SHIFT}),
     GESTURE("Click a bone", "Select it", STAGE, ON_STAGE),
     GESTURE("Hold Alt", "Control and leaf bones", STAGE, 0),
-    ALSO("jiggle simulate", "Make the bone a chain", STAGE, 0, BONE, 0, .core = bones_make_chain, 0, {'J', 0}),
+    ALSO("jiggle simulate", "Make the bone a chain", STAGE, IN_STAGE_MENU, BONE, 0, .core = bones_make_chain, 0,
+         {'J', 0}),
     ALSO("follow-through overlap jiggle", "Make a chain over the clip", STAGE, ON_STAGE, BONE, 0,
          .core = bones_make_chain, true, {'J', SHIFT}),
     ALSO("brush weight offset", "Paint phase and amplitude", STAGE, 0, PAINT, 0, .run = run_brush, 0, {'B', SHIFT}),
@@ -316,7 +326,11 @@ const struct command commands[] = {
             {KEY_PAGE_DOWN, CTRL_SHIFT}),
     COMMAND("Show all of the stage", STAGE, ON_STAGE, NOTHING, 0, .run = run_show, SHOW_WHOLE_STAGE,
             {KEY_HOME, SHIFT}),
-    COMMAND("Show the bone, chain or tail", STAGE, 0, NOTHING, 0, .run = run_show, SHOW_PART_OF_STAGE, {'F', 0}),
+    COMMAND("From the front", STAGE, IN_STAGE_MENU, NOTHING, REPEATS, .run = run_view, FROM_FRONT, {'1', 0}),
+    COMMAND("From the side", STAGE, IN_STAGE_MENU, NOTHING, REPEATS, .run = run_view, FROM_SIDE, {'3', 0}),
+    COMMAND("From the top", STAGE, IN_STAGE_MENU, NOTHING, REPEATS, .run = run_view, FROM_TOP, {'7', 0}),
+    COMMAND("Show the bone, chain or tail", STAGE, IN_STAGE_MENU, NOTHING, 0, .run = run_show, SHOW_PART_OF_STAGE,
+            {'F', 0}),
     ALSO("ghost", "Onion skin", STAGE, ON_STAGE, NOTHING, ANY_TIME, .core = core_flip, SWITCH_ONION, {'O', 0}),
     ALSO("compare bake", "Original clip beside it", STAGE, 0, MODEL, ANY_TIME, .core = core_flip, SWITCH_ORIGINAL,
          {'V', ALT}),

@@ -310,3 +310,19 @@ SESSION_TEST(test_paste_in_place_and_mirrored, panel_open(s, scene, 1280, 720))
     assert_near(s->document->splines[0]->knots[1].value, -1, 0);
     assert_one_step(s, before);
 }
+
+SESSION_TEST(test_views, panel_open(s, scene, 1280, 720))
+{
+    static const struct {
+        int key;
+        float eye[3]; ///< the side of the target that it lies on
+    } rows[] = {{'1', {0, 0, 1}}, {'3', {1, 0, 0}}, {'7', {0, 1, 0}}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        float view[16], projection[16], eye[3];
+        session_key(s, rows[i].key, 0);
+        const struct camera *camera = camera_of(s->editor);
+        camera_matrices(camera, 1, view, projection, eye);
+        for (int k = 0; k < 3; k++)
+            assert_near((eye[k] - camera->target[k]) / camera->distance, rows[i].eye[k], 0.08);
+    }
+}

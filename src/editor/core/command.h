@@ -34,7 +34,8 @@ enum place {
     ON_TIME = 4, ///< ruler, dope sheet, status line
     ON_STAGE = 8,
     ON_PIN = 16,
-    ON_INSPECTOR = 32
+    ON_INSPECTOR = 32,
+    IN_STAGE_MENU = 64 ///< only a right-click on the stage lists it
 };
 
 /// What a command needs.

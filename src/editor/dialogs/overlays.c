@@ -169,7 +169,8 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
         char keys[COMMAND_KEYS], text[160];
         fits[i] = FIT_NOT;
         if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
-        if (menu && (!(command->at & dialogs->lookup.at) || missing[command->needs])) continue;
+        const unsigned at = dialogs->lookup.at, places = at & ON_STAGE ? at | IN_STAGE_MENU : at;
+        if (menu && (!(command->at & places) || missing[command->needs])) continue;
         command_keys(command, core->app.in_page, keys); // its keys also find it
         snprintf(text, sizeof text, "%s %s", command->name, command->also ? command->also : "");
         fits[i] = ui_filter_fit(filter, text);
