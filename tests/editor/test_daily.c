@@ -250,7 +250,7 @@ SESSION_TEST(test_right_click_is_a_menu, panel_open(s, scene, 1280, 720))
     session_point(s, "knot(sway,1)");
     session_press(s, BUTTON_RIGHT, 1);
     session_release(s, BUTTON_RIGHT);
-    assert_int_equal(looked_up(s->editor), LOOKUP_MENU);
+    assert_int_equal(lookup_of(s->editor)->kind, LOOKUP_MENU);
     assert_int_equal(selected(s->editor), 1);
     assert_true(session_shows(s, "Delete the selection") && session_shows(s, "Scale the selection"));
     assert_false(session_shows(s, "Go to the start") || session_shows(s, "Undo"));
@@ -267,12 +267,12 @@ SESSION_TEST(test_right_click_is_a_menu, panel_open(s, scene, 1280, 720))
     session_press(s, BUTTON_RIGHT, 1);
     session_drag(s, 30, 0, 3); // orbits
     session_release(s, BUTTON_RIGHT);
-    assert_int_equal(looked_up(s->editor), LOOKUP_NONE);
+    assert_int_equal(lookup_of(s->editor)->kind, LOOKUP_NONE);
     session_press(s, BUTTON_RIGHT, 1);
     session_release(s, BUTTON_RIGHT);
     assert_true(session_shows(s, "Onion skin"));
     session_key(s, KEY_ESCAPE, 0);
-    assert_int_equal(looked_up(s->editor), LOOKUP_NONE);
+    assert_int_equal(lookup_of(s->editor)->kind, LOOKUP_NONE);
 }
 
 /// Paste in place keeps the frames, paste mirrored turns the values over, once; a selection is mirrored over all its splines.

@@ -309,7 +309,7 @@ WALK(test_the_place_and_size_of_a_tail, tail, 1280, 1600,
      "undone")
 
 WALK(test_channels, tail, 1280, 1600,
-     "click axis.0; click item.up; is rigs.0.channels.0.axis up;"
+     "click axis.0; click item.lift; is rigs.0.channels.0.axis up;"
      "click part.displacement; is rigs.0.channels.0.of displacement;"
      "click feed.0; click item.walk; is rigs.0.channels.0.spline walk; is active.name walk;"
      "click channel.add; is rigs.0.channels.# 2; is rigs.0.channels.1.spline walk; is channel 1;"
