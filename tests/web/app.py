@@ -434,6 +434,23 @@ def characters(browser, url):
     page.close()
 
 
+def keeps(browser, url):
+    page = opened(browser, url)
+    for key, code, held, kept in (('F5', 'F5', '', False), ('r', 'KeyR', 'ctrl', False), ('l', 'KeyL', 'ctrl', False), ('f', 'KeyF', 'ctrl', False),
+                                  ('p', 'KeyP', 'ctrl', False), ('ArrowLeft', 'ArrowLeft', 'alt', False), ('z', 'KeyZ', 'ctrl', True), ('F1', 'F1', '', True)):
+        event = f"new KeyboardEvent('keydown', {{ key: '{key}', code: '{code}', {held}{'Key: true,' if held else ''} bubbles: true, cancelable: true }})"
+        expect(page.evaluate(f"document.getElementById('canvas').dispatchEvent({event})") != kept, f'{held} {key}: kept is not {kept}')
+        frames(page)
+    page.key('Escape')
+    for fields in range(100):
+        if page.evaluate("document.activeElement.id !== 'canvas'"):
+            break
+        page.key('Tab')
+        frames(page, 1)
+    expect(5 < fields < 99, f'Tab leaves the page after {fields} fields')
+    page.close()
+
+
 def swipe(page, start, by=(0, 0)):
     """By one finger; without a way a tap."""
     page.touch('touchStart', start)
@@ -447,7 +464,7 @@ def swipe(page, start, by=(0, 0)):
 def touches(browser, url):
     page = opened(browser, url, size=(1280, 772, 1), fingers=True)  # the bar takes 52
     bar = page.evaluate("[...document.querySelectorAll('#bar button')].map(button => button.offsetHeight)")
-    expect(len(bar) == 8 and min(bar) > 40, f'the bar has eight keys for fingers: {bar}')
+    expect(len(bar) == 11 and min(bar) > 40, f'the bar has eleven keys for fingers: {bar}')
     start = scene(page)
     look(page)
     page.touch('touchStart', (500, 200), (700, 200))
@@ -625,6 +642,7 @@ CASES = [
     ('without a database it goes on, and downloads what is saved', cleared),
     ('where it stops it says so, and offers what is kept', stops),
     ('a character is dropped in, and the built-in dog opens', characters),
+    ('the browser keeps its keys, and Tab leaves the page', keeps),
     ('two fingers pan, zoom and turn', touches),
     ('on a phone a finger drags, pins, reads the help and presents', phone),
     ('knots are pasted from page to page', pastes),
