@@ -120,7 +120,8 @@ void presenter_toggle(struct core *core, int argument)
     (void)argument;
     core->view.presenter = (struct presenter){.on = !core->view.presenter.on, .side = 1, .below = 1};
     core_layout(core);
-    core_message(core, false, core->view.presenter.on ? "Esc leaves, Tab or an edge shows the panels." : "");
+    const char *leave = core->input.finger ? "Touch an edge for panels" : "Esc leaves, Tab shows the panels.";
+    core_message(core, false, core->view.presenter.on ? leave : "");
     core->message.seconds_left = LEAVING_SHOWN;
 }
 
