@@ -121,7 +121,7 @@ void presenter_toggle(struct core *core, int argument)
     core->view.presenter = (struct presenter){.on = !core->view.presenter.on, .side = 1, .below = 1};
     core_layout(core);
     const char *leave = core->input.finger ? "Touch an edge for panels" : "Esc leaves, Tab shows the panels.";
-    core_message(core, false, core->view.presenter.on ? leave : "");
+    core_message(core, false, "%s", core->view.presenter.on ? leave : "");
     core->message.seconds_left = LEAVING_SHOWN;
 }
 
