@@ -26,6 +26,7 @@ WANTED = 90  # per cent
 FEWEST = 5  # faults for the smallest part of the code
 # How a suite run under sanitizers ends.
 FLAGS = "CFLAGS=-g0 -fsanitize=undefined -fsanitize-undefined-trap-on-error"
+SAME = " -- " + FLAGS.replace(" ", "\\ ")  # for scripts that call make, which would build the copy anew with other flags
 FOLDER = pathlib.Path("build/mutate")
 
 Fault = collections.namedtuple("Fault", "file line kind start end new before after")
@@ -152,7 +153,7 @@ def fails(test, seconds):
     scratch = (FOLDER / "scratch").resolve()
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir()
-    run = subprocess.Popen(program, cwd=FOLDER, env=dict(os.environ, B="build", WIGGLY="build/wiggly", TEST_OUT=str(scratch)),
+    run = subprocess.Popen(program, cwd=FOLDER, env=dict(os.environ, B="build", WIGGLY="build/wiggly", TEST_OUT=str(scratch), MAKEFLAGS=SAME),
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL, start_new_session=True)
     try:
         return run.wait(10 * seconds + 20) != 0
