@@ -21,7 +21,6 @@ struct session {
     unsigned mods;        ///< of pointer and buttons
     bool finger;          ///< is the pointer
     char **saved;         ///< texts returned by session_saved()
-    const char *mark;     ///< of a walk: the text to compare with
     int saved_count;
     const char *kept; ///< the text that hands() keeps
 };

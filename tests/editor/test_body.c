@@ -1,5 +1,5 @@
 /// Rigs by hand on the stage: bodies are dragged and follow through, points are pinned, floors moved; rigs come and go.
-#include "walks.h"
+#include "hands.h"
 
 #include "editor/stage/state.h"
 #include "rig/import.h"
@@ -18,13 +18,13 @@
 static const char scene[] = "{'frames': [0, 48], 'splines': [" SWAY ", " WALK_OF(TO_RIGHT) "], " FOX_AT("0");
 static const char tracked[] = "{'frames': [0, 48], 'splines': [" SWAY ", " WALK_OF(TO_RIGHT) "], " FOX_AT(FOLLOWING);
 
-#define BODY_TEST(name, scene) SESSION_TEST(name, session_open(s, quoted(scene)))
+#define BODY_TEST(name, scene) SESSION_TEST(name, session_open(s, scene))
 
 BODY_TEST(test_tail_follows_through_and_settles, scene)
 {
     // the pointer goes to the left, where +x is, and the tip stays behind; the document waits
-    walk(s, "over body(tail); hold body(tail) -150 0 12; is body.x >0.1; is tip.behind <-0.05; unchanged;"
-            "keep body.x; release; is body.x kept±1e-3; is undo Move body");
+    hands(s, "hover body(tail); pull body(tail) -150 0 12; is body.x > 0.1; is tip.behind < -0.05; kept;"
+             "keep body.x; release; is body.x kept ~1e-3; label Move body");
     assert_near(number(s, "rigs.0.position.0"), number(s, "body.x"), 1e-3);
     float overshoot = -1;
     for (int i = 0; i < 60; i++) {
@@ -32,9 +32,9 @@ BODY_TEST(test_tail_follows_through_and_settles, scene)
         overshoot = fmaxf(overshoot, (float)number(s, "tip.behind"));
     }
     assert_true(overshoot > 0.05f); // and swings past
-    walk(s,
-         "is wants.frames 1; frames 1200; is wants.frames 0; is tip.behind 0;" // hangs still: exactly nothing is left
-         "step; key Ctrl+Z; is undo nothing; unchanged");
+    hands(s,
+          "is wants.frames 1; wait 1200; is wants.frames 0; is tip.behind 0;" // hangs still: exactly nothing is left
+          "once; key Ctrl+Z; label; kept");
 }
 
 /// Lagged joints come later: each extremum of the bend is at the base first and at the tip last.
@@ -42,7 +42,7 @@ BODY_TEST(test_swing_runs_along_the_tail, scene)
 {
     float least[2] = {0, 0};
     int when[2] = {0, 0};
-    walk(s, "over body(tail); hold body(tail) -150 0 3; release"); // so fast that the base has not swung out yet
+    hands(s, "hover body(tail); pull body(tail) -150 0 3; release"); // so fast that the base has not swung out yet
     for (int i = 0; i < 40; i++) {
         for (int far = 0; far < 2; far++) {
             const float *one = posed(s->editor)->matrix[far ? 20 : 4],
@@ -59,17 +59,17 @@ BODY_TEST(test_swing_runs_along_the_tail, scene)
 /// Clicks, and presses beside the body, move nothing; a drag is taken back by Esc; axes lock, and Shift is fine.
 BODY_TEST(test_a_drag_of_the_body, scene)
 {
-    walk(s, "on body(tail); is undo nothing; carry stage(0.03,0.1) 40 0 3; is body.x 0; is undo nothing;"
-            "over body(tail); hold body(tail) 80 30 6; key Escape; release; is body.x 0; is tip.behind 0;"
-            "is wants.frames 0; unchanged; is undo nothing;"
-            "over body(tail); hold body(tail) -60 40; is body.z >0.05; key X; is body.z 0; is body.x >0.05;"
-            "key Y; is body.x 0; key Y");
+    hands(s, "click body(tail); label; carry stage(0.03,0.1) 40 0 3; is body.x 0; label;"
+             "hover body(tail); pull body(tail) 80 30 6; key Escape; release; is body.x 0; is tip.behind 0;"
+             "is wants.frames 0; kept; label;"
+             "hover body(tail); pull body(tail) -60 40; is body.z > 0.05; key X; is body.z 0; is body.x > 0.05;"
+             "key Y; is body.x 0; key Y");
     const double x = number(s, "body.x");
     s->mods = MOD_SHIFT;
-    walk(s, "by -60 0");
+    hands(s, "drag -60 0");
     const double fine = number(s, "body.x") - x;
     s->mods = 0;
-    walk(s, "by -60 0");
+    hands(s, "drag -60 0");
     assert_near(number(s, "body.x") - x - fine, 10 * fine, 1e-3);
 }
 
@@ -77,10 +77,12 @@ BODY_TEST(test_a_drag_of_the_body, scene)
 BODY_TEST(test_a_body_is_lifted, scene)
 {
     s->mods = MOD_CTRL;
-    walk(s, "key Shift+A; over body(tail); hold body(tail) 0 80; is body.y 0.26±1e-6; by 0 -200 8; is body.y >0.35;"
-            "keep body.y");
+    hands(
+        s,
+        "key Shift+A; hover body(tail); pull body(tail) 0 80; is body.y 0.26 ~1e-6; drag 0 -200 8; is body.y > 0.35;"
+        "keep body.y");
     s->mods = 0;
-    walk(s, "release; is body.y kept±1e-3");
+    hands(s, "release; is body.y kept ~1e-3");
     assert_near(posed(s->editor)->ground, 0, 0);
 }
 
@@ -91,13 +93,13 @@ TEST(test_a_still_knot_under_a_dragged_body)
         "'equilibrium': 0.05, 'knots': [{'frame': 0, 'still': true}, {'frame': 48, 'value': 0.1}]") "], " //
         FOX_AT(FOLLOWING);
     struct session s;
-    session_open(&s, quoted(still));
-    walk(&s,
-         "over body(tail); hold body(tail) -150 0 12; release; is splines.1.knots.0.still nothing;"
-         "is splines.1.knots.0.value >0.1;"
-         "key Ctrl+Z; unchanged; on knot(walk,1); key Ctrl+D Shift+P Shift+A;" // the copy is still, and keeps a value
-         "over body(tail); hold body(tail) -150 0 12; release; is splines.1.knots.0.still true;"
-         "is splines.1.knots.2.still true");
+    session_open(&s, still);
+    hands(&s,
+          "hover body(tail); pull body(tail) -150 0 12; release; is splines.1.knots.0.still nothing;"
+          "is splines.1.knots.0.value > 0.1;"
+          "key Ctrl+Z; kept; click knot(walk,1); key Ctrl+D Shift+P Shift+A;" // the copy is still, and keeps a value
+          "hover body(tail); pull body(tail) -150 0 12; release; is splines.1.knots.0.still true;"
+          "is splines.1.knots.2.still true");
     const double by = number(&s, "splines.1.knots.1.value") - 0.1;
     assert_true(by > 0.1);
     assert_near(s.work.evaluation.curves[1].total[0], 0.05 + by, 1e-6);
@@ -112,14 +114,14 @@ TEST(test_a_tracked_body_gets_a_knot)
         "{'frames': [0, 48], 'splines': [" WALK_OF(TO_RIGHT) ", " SWAY "], " FOX_AT(FOLLOWING);
     for (int track = 0; track < 2; track++) {
         struct session s;
-        session_open(&s, quoted(track ? tracked : walk_first));
-        walk(&s,
-             "key Right Right; is body.x 0.1±1e-6; over body(tail); hold body(tail) -60 0; key X; keep body.x;"
-             "release; is splines.# 2; is splines.%d.knots.# 3; is splines.%d.knots.1.frame 2; is body.x kept±1e-3;"
-             "is rigs.0.position.2 0",
-             track, track);
+        session_open(&s, track ? tracked : walk_first);
+        hands(&s,
+              "key Right Right; is body.x 0.1 ~1e-6; hover body(tail); pull body(tail) -60 0; key X; keep body.x;"
+              "release; is splines.# 2; is splines.%d.knots.# 3; is splines.%d.knots.1.frame 2; is body.x kept ~1e-3;"
+              "is rigs.0.position.2 0",
+              track, track);
         assert_near(s.document->splines[track]->knots[1].value, number(&s, "body.x"), 1e-3);
-        walk(&s, "key Ctrl+Z; unchanged");
+        hands(&s, "key Ctrl+Z; kept");
         session_close(&s);
     }
 }
@@ -127,9 +129,9 @@ TEST(test_a_tracked_body_gets_a_knot)
 /// Without auto-key all of the shot moves: every knot of what the place follows.
 BODY_TEST(test_without_auto_key_the_shot_moves, tracked)
 {
-    walk(s, "key Shift+A Right; over body(tail); hold body(tail) -60 0; key X");
+    hands(s, "key Shift+A Right; hover body(tail); pull body(tail) -60 0; key X");
     const double x = number(s, "body.x");
-    walk(s, "release; is splines.1.knots.# 2; says whole shot: x +");
+    hands(s, "release; is splines.1.knots.# 2; said whole shot: x +");
     for (int i = 0; i < 2; i++) assert_near(s->document->splines[1]->knots[i].value, x, 1e-3);
 }
 
@@ -143,32 +145,32 @@ BODY_TEST(
     static const char *const told[] = {
         "Moved for the whole shot: x +0.05 m. Held by the limit 0.25 of walk at frame 24.",
         "Held by the limit 0.25 of walk at frame 24."};
-    walk(s, "key Shift+A"); // what follows a spline is keyed, else
+    hands(s, "key Shift+A"); // what follows a spline is keyed, else
     for (int again = 0; again < 2; again++) {
-        walk(s,
-             "over body(tail); hold body(tail) -150 0; key X; frames; is body.x 0.15±1e-6;" // under the hand, too
-             "release; is splines.1.knots.0.value 0.15±1e-12; is splines.1.knots.1.value 0.25±1e-12;"
-             "is splines.1.knots.2.value 0.15±1e-12; is said %s",
-             told[again]);
+        hands(s,
+              "hover body(tail); pull body(tail) -150 0; key X; wait; is body.x 0.15 ~1e-6;" // under the hand, too
+              "release; is splines.1.knots.0.value 0.15 ~1e-12; is splines.1.knots.1.value 0.25 ~1e-12;"
+              "is splines.1.knots.2.value 0.15 ~1e-12; says %s",
+              told[again]);
         assert_false(said_error(s->editor));
     }
-    walk(s, "key Shift+A; over body(tail); hold body(tail) -150 0; key X; frames; is body.x 0.25±1e-6; release;"
-            "is splines.1.knots.0.value 0.25;"
-            "is said Keyed walk at frame 0. Held by the limit 0.25 of walk at frame 0.");
+    hands(s, "key Shift+A; hover body(tail); pull body(tail) -150 0; key X; wait; is body.x 0.25 ~1e-6; release;"
+             "is splines.1.knots.0.value 0.25;"
+             "says Keyed walk at frame 0. Held by the limit 0.25 of walk at frame 0.");
 }
 
 /// With it a place that was a number gets a spline, which begins where the body was, and the tail follows that through.
 BODY_TEST(test_auto_key_makes_a_place_follow, scene)
 {
-    walk(s, "key Shift+A Right*12; over body(tail); hold body(tail) -60 0; key X");
+    hands(s, "key Shift+A 12*Right; hover body(tail); pull body(tail) -60 0; key X");
     const double x = number(s, "body.x");
-    walk(s, "release; is rigs.0.position.0.spline tail x; is splines.2.name tail x; is splines.2.knots.# 2;"
-            "is splines.2.knots.0.value 0; is splines.2.knots.1.frame 12; is rigs.0.channels.# 2;"
-            "is rigs.0.position.2 0; is said Keyed tail x at frame 12.");
+    hands(s, "release; is rigs.0.position.0.spline tail x; is splines.2.name tail x; is splines.2.knots.# 2;"
+             "is splines.2.knots.0.value 0; is splines.2.knots.1.frame 12; is rigs.0.channels.# 2;"
+             "is rigs.0.position.2 0; says Keyed tail x at frame 12.");
     assert_near(number(s, "splines.2.knots.1.value"), x, 1e-3);
     const int follows = document_tail(s->document, 0)->channels[1].spline;
     assert_int_equal(s->document->splines[follows]->parameter[PARAMETER_EQUILIBRIUM].track, 2);
-    walk(s, "key Ctrl+Z; unchanged");
+    hands(s, "key Ctrl+Z; kept");
 }
 
 /// A held body may lose its tail, to an edit made meanwhile; letting go of it then changes nothing. A press in the frame in which an edit
@@ -178,16 +180,16 @@ TEST(test_a_tail_that_goes)
     static const char *const targets[] = {"body(tail)", "body(tail)", "tail(tail,0.5)"};
     for (int t = 0; t < 3; t++) {
         struct session s;
-        session_open(&s, quoted(scene));
-        walk(&s, "over %s", targets[t]);
-        if (t == 0) walk(&s, "hold %s 80 30 6", targets[t]);
+        session_open(&s, scene);
+        hands(&s, "hover %s", targets[t]);
+        if (t == 0) hands(&s, "pull %s 80 30 6", targets[t]);
         if (t > 0) history_begin(s.history, "Remove tail", 0);
         assert_done(edit_rig_remove(s.document, 0, &error));
         if (t > 0) history_end(s.history);
-        s.mark = session_saved(&s);
+        s.kept = session_saved(&s);
         if (t > 0) session_press(&s, BUTTON_LEFT, 1);
         if (t > 0) session_drag(&s, 40, 10, 3);
-        walk(&s, "release; unchanged");
+        hands(&s, "release; kept");
         session_close(&s);
     }
 }
@@ -204,13 +206,13 @@ BODY_TEST(test_a_press_right_after_a_rig_went,
           "'rigs': [{'type': 'tail', 'name': 'tail', 'spline': 'sway'}, {'type': 'model', 'name': 'gone', 'model': "
           "'gone.glb'}]}")
 {
-    walk(s, "on body(tail); key Space; frames 30");
+    hands(s, "click body(tail); key Space; wait 30");
     session_point(s, "tail(tail,1)");
     strike(s, KEY_DELETE, MOD_SHIFT);
     if (asked(s->editor) == DIALOG_ASK) strike(s, 'K', 0);
-    walk(s, "is rigs.# 1; is playing 1");
+    hands(s, "is rigs.# 1; is playing 1");
     session_click_here(s, 1);
-    walk(s, "is rigs.0.type model");
+    hands(s, "is rigs.0.type model");
 }
 
 // --- pins ---------------------------------------------------------------------------------------------------------------
@@ -229,7 +231,7 @@ static const char creature[] =
 
 static void open_models(struct session *s, const char *text)
 {
-    panel_open_models(s, quoted(text));
+    panel_open_models(s, text);
     session_frame(s);
 }
 
@@ -251,22 +253,22 @@ static void pull_with_ctrl(struct session *s, const char *target, float dx, floa
 PIN_TEST(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer, pinned_tail)
 {
     float tip[2], marker[2];
-    walk(s, "key Right*10");
+    hands(s, "key 10*Right");
     pull_with_ctrl(s, "tail(tail,1)", 0, -30);
     session_where(s, "tail(tail,1)", tip);
     session_where(s, "pin(tail,0)", marker);
     assert_true(hypotf(marker[0] - s->x, marker[1] - s->y) < 1);
     const float apart = hypotf(tip[0] - marker[0], tip[1] - marker[1]);
     if (!(apart < 8)) fail_msg("the tip is %g pixels from the pointer", (double)apart);
-    walk(s,
-         "release; is rigs.0.pins.# 1; is rigs.0.pins.0.joint 23; is rigs.0.pins.0.frame 10; is splines.0.knots.# 1;"
-         "step; key Ctrl+Z; carry tail(tail,0.9) 20 20; is rigs.0.pins.# nothing; is splines.0.knots.# 2");
+    hands(s,
+          "release; is rigs.0.pins.# 1; is rigs.0.pins.0.joint 23; is rigs.0.pins.0.frame 10; is splines.0.knots.# 1;"
+          "once; key Ctrl+Z; carry tail(tail,0.9) 20 20; is rigs.0.pins.# nothing; is splines.0.knots.# 2");
 }
 
 PIN_TEST(test_an_axis_can_be_locked_and_esc_cancels, pinned_tail)
 {
     struct pin pins[3];
-    walk(s, "is rigs.# 1");
+    hands(s, "is rigs.# 1");
     pull_with_ctrl(s, "tail(tail,1)", 30, 25);
     for (int locked = 0; locked < 3; locked++) {
         if (locked) session_key(s, locked == 1 ? 'Y' : 'X', 0);
@@ -274,39 +276,39 @@ PIN_TEST(test_an_axis_can_be_locked_and_esc_cancels, pinned_tail)
     }
     assert_true(pins[1].to[1] != pins[0].to[1] || pins[1].to[0] != pins[0].to[0]);
     assert_true(pins[1].to[0] != pins[2].to[0]);
-    assert_near(pins[1].to[2], pins[2].to[2], 1e-9);                  // neither moves along z
-    walk(s, "key Escape; unchanged; release; key Delete; unchanged"); // nothing is selected now
+    assert_near(pins[1].to[2], pins[2].to[2], 1e-9);         // neither moves along z
+    hands(s, "key Escape; kept; release; key Delete; kept"); // nothing is selected now
 }
 
 /// Pins the tip where it is, at frame 10.
 static void open_pinned(struct session *s)
 {
     open_models(s, pinned_tail);
-    walk(s, "key Right*10; over tail(tail,1); key H; is rigs.0.pins.# 1; mark");
+    hands(s, "key 10*Right; hover tail(tail,1); key H; is rigs.0.pins.# 1; keep");
 }
 
 #define PINNED_TEST(name) SESSION_TEST(name, open_pinned(s))
 
 PINNED_TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys)
 {
-    walk(s, "keep rigs.0.pins.0.to.1; key Alt+Up Alt+Up; is rigs.0.pins.0.to.1 >kept+0.01; step;" // both nudges
-            "key Alt+PageDown; is rigs.0.pins.0.frame 11; is frame 11;"
-            "at 2 2; key Right*9 H;" // the same point, once more
-            "reads Pinned at frame 20. Drag the marker, or type its place in the section Pins.;"
-            "is rigs.0.pins.# 2; is rigs.0.pins.1.frame 20");
+    hands(s, "keep rigs.0.pins.0.to.1; key Alt+Up Alt+Up; is rigs.0.pins.0.to.1 > kept+0.01; once;" // both nudges
+             "key Alt+PageDown; is rigs.0.pins.0.frame 11; is playhead 11;"
+             "at 2 2; key 9*Right H;" // the same point, once more
+             "shows Pinned at frame 20. Drag the marker, or type its place in the section Pins.;"
+             "is rigs.0.pins.# 2; is rigs.0.pins.1.frame 20");
     assert_near(pin_of(s, 1)->to[1], pin_of(s, 0)->to[1], 0);
     session_type(s, ",");
-    walk(s, "is frame 11; key Delete; is rigs.0.pins.# 1; is rigs.0.pins.0.frame 20");
+    hands(s, "is playhead 11; key Delete; is rigs.0.pins.# 1; is rigs.0.pins.0.frame 20");
 }
 
 PINNED_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler)
 {
     float from[2], to[2], mark[2];
-    walk(s, "key Escape; carry pin(tail,0) 0 -25; is rigs.0.pins.# 1; step; mark");
+    hands(s, "key Escape; carry pin(tail,0) 0 -25; is rigs.0.pins.# 1; once; keep");
     session_where(s, "ruler(10)", from);
     session_where(s, "ruler(25)", to);
     const double way = (double)(to[0] - from[0]);
-    walk(s, "carry pintime(tail,0) %g 0; is rigs.0.pins.0.frame 25; is frame 25; step", way);
+    hands(s, "carry pintime(tail,0) %g 0; is rigs.0.pins.0.frame 25; is playhead 25; once", way);
     session_where(s, "pintime(tail,0)", mark); // it hangs over the ruler's edge, and is taken there, too
     session_move(s, mark[0], mark[1] + 4);
     while (said(s->editor)[0]) session_frame(s);
@@ -315,14 +317,14 @@ PINNED_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler)
                                "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, "
                                "Alt+PgDn: by a frame"));
     session_press(s, BUTTON_LEFT, 1);
-    walk(s, "by %g 0; release; is rigs.0.pins.0.frame 40", way);
+    hands(s, "drag %g 0; release; is rigs.0.pins.0.frame 40", way);
 }
 
 /// Of two marks close together on the ruler the nearer one is under the pointer, unless the other is selected and in reach.
 PINNED_TEST(test_the_selected_mark_is_taken_first)
 {
     float marks[2][2];
-    walk(s, "key Escape Right H Escape; is rigs.0.pins.# 2");
+    hands(s, "key Escape Right H Escape; is rigs.0.pins.# 2");
     plot_of(s->editor)->frame0 -= 400; // frames are so narrow that both marks are in reach
     plot_of(s->editor)->frame1 += 400;
     session_frame(s);
@@ -344,30 +346,30 @@ PINNED_TEST(test_the_selected_mark_is_taken_first)
 
 PINNED_TEST(test_the_inspector_lists_pins_and_takes_numbers)
 {
-    walk(s, "key Escape; lacks pin.x; click pin.0; shows pin.x; enter pin.x 0.25; is rigs.0.pins.0.to.0 0.25;"
-            "enter pin.frame 12; is rigs.0.pins.0.frame 12; enter pin.point 11; is rigs.0.pins.0.joint 11;"
-            "click pin.0.remove; is rigs.0.pins.# nothing");
+    hands(s, "key Escape; lacks pin.x; click pin.0; finds pin.x; enter pin.x 0.25; is rigs.0.pins.0.to.0 0.25;"
+             "enter pin.frame 12; is rigs.0.pins.0.frame 12; enter pin.point 11; is rigs.0.pins.0.joint 11;"
+             "click pin.0.remove; is rigs.0.pins.# nothing");
 }
 
 /// The surface is pinned and follows the pointer. The soles hardly move: pulling them would throw all else far.
 PIN_TEST(test_the_surface_of_a_character_is_pinned, creature)
 {
-    walk(s, "over character(c,0.4,0.01); is hovered nothing; key Right*10; over character(c,0.5,0.9)");
+    hands(s, "hover character(c,0.4,0.01); is hovered nothing; key 10*Right; hover character(c,0.5,0.9)");
     assert_ptr_equal(hovered(s->editor), &thing_point);
-    walk(s, "carry character(c,0.5,0.9) 25 8; is rigs.0.pins.# 1");
+    hands(s, "carry character(c,0.5,0.9) 25 8; is rigs.0.pins.# 1");
     const struct pin_left *left = evaluation_pin(&s->work.evaluation, s->document, 0, 0);
     assert_true(left && left->is_found);
     assert_true(fabs(left->way[0]) < 0.05 && fabs(left->way[1]) < 0.05);
-    walk(s, "step");
+    hands(s, "once");
 }
 
 /// A pin that throws a rig far makes its curves high, by hand or by number: they come into sight.
 PIN_TEST(test_the_curves_follow_a_pin, creature)
 {
-    static const char *const ways[] = {"key Right*10; carry character(c,0.5,0.8) 120 -80; is rigs.0.pins.# 1",
+    static const char *const ways[] = {"key 10*Right; carry character(c,0.5,0.8) 120 -80; is rigs.0.pins.# 1",
                                        "enter pin.y 3"};
     for (int typed = 0; typed < 2; typed++) {
-        walk(s, "%s; frames 90", ways[typed]);
+        hands(s, "%s; wait 90", ways[typed]);
         for (int i = 0; i < 122; i++) {
             const double total = s->world.evaluation->curves[i % 2].total[i / 2];
             assert_true(total < plot_of(s->editor)->value1 && total > plot_of(s->editor)->value0);
@@ -381,8 +383,8 @@ TEST(test_the_keyboard_alone_is_enough)
     for (int tail = 0; tail < 2; tail++) {
         struct session s;
         open_models(&s, tail ? pinned_tail : creature);
-        walk(&s, "at 2 2; key H; is rigs.0.pins.# 1");
-        if (tail) walk(&s, "is rigs.0.pins.0.joint 23");
+        hands(&s, "at 2 2; key H; is rigs.0.pins.# 1");
+        if (tail) hands(&s, "is rigs.0.pins.0.joint 23");
         session_close(&s);
     }
 }
@@ -396,18 +398,18 @@ PIN_TEST(test_a_floor_is_dragged,
          "'floor': 0}]}")
 {
     float from[2], to[2];
-    walk(s, "over floor(c); is cursor vertical");
+    hands(s, "hover floor(c); is cursor vertical");
     assert_ptr_equal(hovered(s->editor), &thing_floor);
     session_where(s, "floor(c)", from);
-    walk(s, "hold floor(c) 0 30");
+    hands(s, "pull floor(c) 0 30");
     session_where(s, "floor(c)", to);
     if (!(fabsf(to[1] - from[1] - 30) < 6)) fail_msg("the edge moved by %g pixels of 30", (double)(to[1] - from[1]));
-    walk(s, "release; is rigs.0.floor <-0.02; step; key Ctrl+Z;"
-            "hold floor(c) 0 -300; is rigs.0.floor 0.2±1e-12; key Escape; release; unchanged"); // not above the feet
+    hands(s, "release; is rigs.0.floor < -0.02; once; key Ctrl+Z;"
+             "pull floor(c) 0 -300; is rigs.0.floor 0.2 ~1e-12; key Escape; release; kept"); // not above the feet
     const double was = s->world.evaluation->curves[0].total[35];
-    walk(s, "hold floor(c) 0 -30");
+    hands(s, "pull floor(c) 0 -30");
     assert_true(fabs(s->world.evaluation->curves[0].total[35] - was) > 1e-3); // the motion follows in the same frame
-    walk(s, "release; is rigs.0.floor >0.02");
+    hands(s, "release; is rigs.0.floor > 0.02");
     session_where(s, "floor(c)", to);
     s->document->rigs[0]->character.has_floor = false;
     session_move(s, to[0], to[1]);
@@ -423,32 +425,32 @@ static const char bear[] =
     "'t', 'knots': []}], 'rigs': [{'type': 'character', 'name': 'bear', 'model': "
     "'assets/models/creature.glb', 'coordinates': [{'name': 'up', 'spline': 's'}]}]}";
 
-SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, quoted("{'frames': [0, 48], 'splines': []}"), 1280, 720))
+SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, "{'frames': [0, 48], 'splines': []}", 1280, 720))
 {
     float x, y;
-    walk(s, "at 300 200; key A");
+    hands(s, "at 300 200; key A");
     assert_true(widget_at(s->editor, "item.tail", &x, &y));
     assert_true(x > 300 && x < 600 && y > 200 && y < 260); // at the pointer
-    walk(s, "key Enter; is rigs.# 1; is rigs.0.type tail; is splines.# 1; is splines.0.knots.# 1; step");
-    assert_int_equal(document_tail(s->document, 0)->channels[0].spline, 0);               // that bends it
-    walk(s, "key A; lacks item.chain; key Escape;"                                        // there are no bones
-            "at 1100 600; key A; click item.tail; is rigs.# 2; is rigs.1.position.0 >1"); // over the inspector, too
+    hands(s, "key Enter; is rigs.# 1; is rigs.0.type tail; is splines.# 1; is splines.0.knots.# 1; once");
+    assert_int_equal(document_tail(s->document, 0)->channels[0].spline, 0);                 // that bends it
+    hands(s, "key A; lacks item.chain; key Escape;"                                         // there are no bones
+             "at 1100 600; key A; click item.tail; is rigs.# 2; is rigs.1.position.0 > 1"); // over the inspector, too
     // the file dialog asks the app; a bad file leaves a sentence and the document as it was
     session_asked(s);
-    walk(s, "mark; key A; click item.file; is asked add; type no.glb; key Enter; asks add no.glb;"
-            "answer add no.glb: cannot be read; is refused no.glb: cannot be read; unchanged");
+    hands(s, "keep; key A; click item.file; is asked add; type no.glb; key Enter; asks add no.glb;"
+             "answer add no.glb: cannot be read; is refused no.glb: cannot be read; kept");
 }
 
 PIN_TEST(test_a_character_comes_and_goes, bear)
 {
-    walk(s, "key A; click item.copy.0; frames; is rigs.# 2; is rigs.1.position.0 >0.5;"
-            "is rigs.1.coordinates.0.spline s; is stage.characters 2");
+    hands(s, "key A; click item.copy.0; wait; is rigs.# 2; is rigs.1.position.0 > 0.5;"
+             "is rigs.1.coordinates.0.spline s; is stage.characters 2");
     assert_int_equal(s->editor->core.focus.characters.character, 1);
-    walk(s, "step; key Ctrl+Z; key Shift+Delete; is asked ask");
+    hands(s, "once; key Ctrl+Z; key Shift+Delete; is asked ask");
     assert_non_null(strstr(dialog_of(s->editor)->question.title, "Remove bear"));
-    walk(s, "key Escape; unchanged; key Shift+Delete K; is rigs.# 0; is splines.# 2; step; key Ctrl+Z;"
-            "key Shift+Delete W; is rigs.# 0; is splines.# 1; is splines.0.name t; step;"
-            "key Shift+Delete; says nothing on the stage");
+    hands(s, "key Escape; kept; key Shift+Delete K; is rigs.# 0; is splines.# 2; once; key Ctrl+Z;"
+             "key Shift+Delete W; is rigs.# 0; is splines.# 1; is splines.0.name t; once;"
+             "key Shift+Delete; said nothing on the stage");
 }
 
 /// A model goes with the chains on it; what followed its joints keeps its place.
@@ -458,9 +460,9 @@ PIN_TEST(test_a_model_goes_with_its_chains,
          "{'type': 'model', 'name': 'dog', 'model': 'assets/models/dog.glb'}, {'type': 'chain', 'name': 'ear', "
          "'model': 'dog', 'from': 'ear_1_L', 'to': 'ear_2_L', 'channels': [{'spline': 'u'}]}]}")
 {
-    walk(s, "click model.0; click rig.copy; is rigs.# 5; is rigs.4.type chain; step; key Ctrl+Z;"
-            "click model.0; click rig.delete; key W; is rigs.# 1; is splines.# 1;"
-            "is splines.0.equilibrium.joint nothing; step");
+    hands(s, "click model.0; click rig.copy; is rigs.# 5; is rigs.4.type chain; once; key Ctrl+Z;"
+             "click model.0; click rig.delete; key W; is rigs.# 1; is splines.# 1;"
+             "is splines.0.equilibrium.joint nothing; once");
 }
 
 /// A chain goes, too, where its own spline follows a joint by the chain's axes, as Shift+J makes it.
@@ -470,8 +472,8 @@ PIN_TEST(test_a_chain_goes_with_its_splines,
          "'assets/models/dog.glb'}, {'type': 'chain', 'name': 'ear', 'model': 'dog', 'from': 'ear_1_L', 'to': "
          "'ear_2_L', 'channels': [{'spline': 'u'}]}]}")
 {
-    walk(s, "key Shift+Delete W; is rigs.# 1; is splines.# 0; step; key Ctrl+Z;"
-            "key Shift+Delete K; is rigs.# 1; is splines.# 1; step");
+    hands(s, "key Shift+Delete W; is rigs.# 1; is splines.# 0; once; key Ctrl+Z;"
+             "key Shift+Delete K; is rigs.# 1; is splines.# 1; once");
 }
 
 /// Files are told apart; a .glb by another name is one, too; anything else is not.

@@ -2,7 +2,7 @@
 /// leaves; and models without bones.
 #include "beast.h"
 #include "folder.h"
-#include "walks.h"
+#include "hands.h"
 
 TESTS_BETWEEN(folder_make, folder_remove)
 
@@ -16,8 +16,8 @@ static void open_beast(struct session *s, const char *equilibrium, const char *m
              "'equilibrium': %s, 'knots': []}, {'name': 'perk', 'frequency': 1, 'damping': 0.1, 'knots': []}], "
              "'rigs': [{'type': 'model', 'name': 'beast', 'model': '%s'}%s]}",
              equilibrium, folder_path("beast.glb"), more_rigs);
-    panel_open_models(s, quoted(text));
-    walk(s, "at 2 2; mark");
+    panel_open_models(s, text);
+    hands(s, "at 2 2; keep");
 }
 
 #define CHAIN(name, from, to, axis)                                                                                  \
@@ -34,11 +34,11 @@ static void open_beast(struct session *s, const char *equilibrium, const char *m
 /// A drag from a bone moves the character; it is no click.
 BEAST_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, "")
 {
-    walk(s, "hides neck; over bone(neck); reads neck; is bone ;"
-            "on bone(neck); is bone neck; on bone(leg_FL_2); is bone leg_FL_2; key Escape; is bone ;"
-            "on bone(neck); on stage(0.02,0.95); is bone ;"
-            "carry bone(neck) 40 0; is bone ;"
-            "over bone(neck)");
+    hands(s, "hides neck; hover bone(neck); shows neck; is bone ;"
+             "click bone(neck); is bone neck; click bone(leg_FL_2); is bone leg_FL_2; key Escape; is bone ;"
+             "click bone(neck); click stage(0.02,0.95); is bone ;"
+             "carry bone(neck) 40 0; is bone ;"
+             "hover bone(neck)");
     assert_ptr_equal(hovered(s->editor), &thing_bone);
 }
 
@@ -58,18 +58,18 @@ BEAST_TEST(test_a_dragged_character_moves_and_its_chain_follows_through, TAIL)
 {
     const float *root = editor_stage(s->editor)->models[0].root;
     const float start[2] = {root[12], root[14]};
-    walk(s, "hold bone(neck) 80 0 6");
+    hands(s, "pull bone(neck) 80 0 6");
     const float held[2] = {root[12], root[14]};
     assert_true(hypotf(held[0] - start[0], held[1] - start[1]) > 0.1f);
     assert_true(turned(s, "tail_8") > 0.02f);
     assert_near(turned(s, "neck"), 0, 1e-6);
-    walk(s, "release; frames; is rigs.0.position.1 0; is bone ");
+    hands(s, "release; wait; is rigs.0.position.1 0; is bone ");
     assert_near(root[12], held[0], 1e-3);
     assert_near(root[14], held[1], 1e-3);
     assert_true(hypot(number(s, "rigs.0.position.0"), number(s, "rigs.0.position.2")) > 0.1);
-    walk(s, "frames 1200");
+    hands(s, "wait 1200");
     assert_near(turned(s, "tail_8"), 0, 1e-6);
-    walk(s, "step; key Ctrl+Z; hold bone(neck) 0 40; key Escape; release; unchanged");
+    hands(s, "once; key Ctrl+Z; pull bone(neck) 0 40; key Escape; release; kept");
 }
 
 /// Alt+V: the clip alone stands beside it, and no chain bends that one.
@@ -78,13 +78,13 @@ BEAST_TEST(test_the_original_is_shown_beside_it, TAIL)
     const struct stage_view *view = editor_stage(s->editor);
     const struct stage_model *beast = view->models;
     assert_done(edit_knot_insert(s->editor->core.document, 0, &(struct knot){.value = 2, .stiffness = 1}, &error));
-    walk(s, "key Alt+V; frames");
+    hands(s, "key Alt+V; wait");
     assert_int_equal(view->model_count, 2);
     const int tip = gltf_find_node(beast[0].gltf, "tail_8"), hips = gltf_find_node(beast[0].gltf, "hips");
     assert_true(beast[1].root[12] > beast[0].root[12] + 0.5f);
     assert_memory_equal(beast[0].pose->world[hips], beast[1].pose->world[hips], sizeof *beast->pose->world);
     assert_true(fabsf(beast[0].pose->world[tip][12] - beast[1].pose->world[tip][12]) > 0.05f);
-    walk(s, "key Alt+V; frames");
+    hands(s, "key Alt+V; wait");
     assert_int_equal(view->model_count, 1);
 }
 
@@ -95,14 +95,14 @@ BEAST_TEST(test_of_bones_over_each_other_the_near_one_is_picked, "")
     for (int turn = 0; turn < 16; turn++) {
         float left[2], right[2];
         struct error error;
-        walk(s, "key Ctrl+Shift+Left");
+        hands(s, "key Ctrl+Shift+Left");
         if (!editor_target(s->editor, "bone(leg_FL_1)", &left[0], &left[1], &error)) continue;
         if (!editor_target(s->editor, "bone(leg_FR_1)", &right[0], &right[1], &error)) continue;
         if (fabsf(left[0] - right[0]) > 2) continue;
         session_move(s, (left[0] + right[0]) / 2, (left[1] + right[1]) / 2);
         session_frame(s);
         session_click_here(s, 1);
-        walk(s, "is bone leg_F%c_1", view->eye[0] > 0 ? 'L' : 'R');
+        hands(s, "is bone leg_F%c_1", view->eye[0] > 0 ? 'L' : 'R');
     }
 }
 
@@ -136,18 +136,18 @@ BEAST_TEST(test_a_beast_is_met_from_behind, "")
 /// A key makes one to the tip in one step; a bone that branches is refused with a sentence.
 BEAST_TEST(test_a_chain_is_made, "")
 {
-    walk(s, "key J; unchanged; on bone(tail_3); key J; is rigs.# 2; is rigs.1.type chain; is rigs.1.from tail_3;"
-            "is rigs.1.to tail_8; is rigs.1.channels.# >0; is rig 1");
+    hands(s, "key J; kept; click bone(tail_3); key J; is rigs.# 2; is rigs.1.type chain; is rigs.1.from tail_3;"
+             "is rigs.1.to tail_8; is rigs.1.channels.# > 0; is rig 1");
     assert_int_equal(active(s->editor), s->document->rigs[1]->chain.channels[0].spline);
-    walk(s, "step; key Ctrl+Z; is bone tail_3; click bone.chain; is rigs.# 2; key Ctrl+Z; unchanged;"
-            "on bone(head); is bone head; key J; unchanged;"
-            "errs \"head\" branches into \"ear_L_1\" and \"ear_R_1\"");
+    hands(s, "once; key Ctrl+Z; is bone tail_3; click bone.chain; is rigs.# 2; key Ctrl+Z; kept;"
+             "click bone(head); is bone head; key J; kept;"
+             "error \"head\" branches into \"ear_L_1\" and \"ear_R_1\"");
 }
 
 BEAST_TEST(test_undoing_a_chain_activates_what_was_active, TAIL)
 {
-    walk(s, "key PageUp; is active 1; on bone(ear_L_1); key J; on bone(leg_FL_1); key J; is active 4;"
-            "key Ctrl+Z; is active 2; is rig 2; key Ctrl+Z; is active 1; is rig 1");
+    hands(s, "key PageUp; is active 1; click bone(ear_L_1); key J; click bone(leg_FL_1); key J; is active 4;"
+             "key Ctrl+Z; is active 2; is rig 2; key Ctrl+Z; is active 1; is rig 1");
 }
 
 /// How far a point of the tail is from the pointer.
@@ -161,30 +161,31 @@ static float apart(const struct session *s, const char *target)
 /// The grabbed point follows the pointer, by a knot at the playhead; one step, and Esc takes it back. A click selects its bone.
 BEAST_TEST(test_dragging_a_chain_sets_a_knot, TAIL)
 {
-    walk(s, "hold chain(tail,0.95) 0 -30 12; frames 60; release; is splines.0.knots.# 1");
+    hands(s, "pull chain(tail,0.95) 0 -30 12; wait 60; release; is splines.0.knots.# 1");
     assert_true(apart(s, "chain(tail,0.95)") < 30); // one axis only: as near as it gets
-    walk(s, "step; key Ctrl+Z; hold chain(tail,0.8) 25 0 6; key Escape; unchanged; release;"
-            "on bone(tail_4); is bone tail_4; unchanged");
+    hands(s, "once; key Ctrl+Z; pull chain(tail,0.8) 25 0 6; key Escape; kept; release;"
+             "click bone(tail_4); is bone tail_4; kept");
 }
 
 /// With an axis each way the point comes to the pointer itself.
 BEAST_TEST(test_a_chain_of_two_axes_comes_to_the_pointer, TAIL)
 {
-    walk(s, "on chain(tail,0.5); click splines.add; click channel.add; click axis.up; is rigs.1.channels.1.axis up;"
-            "hold chain(tail,0.9) 12 18 12; frames 60; release");
+    hands(s,
+          "click chain(tail,0.5); click splines.add; click channel.add; click axis.up; is rigs.1.channels.1.axis up;"
+          "pull chain(tail,0.9) 12 18 12; wait 60; release");
     assert_true(apart(s, "chain(tail,0.9)") < 1.5f);
 }
 
 /// Already while a chain is pulled the curves show its knot, though a small gain needs large values.
 BEAST_TEST(test_the_curves_show_a_knot_that_was_pulled, TAIL_UP)
 {
-    walk(s, "enter gain 0.1; hold chain(tail,0.95) 0 -40 12");
+    hands(s, "enter gain 0.1; pull chain(tail,0.95) 0 -40 12");
     for (int held = 1; held >= 0; held--) {
-        walk(s, "frames 90; is splines.0.knots.# 1");
+        hands(s, "wait 90; is splines.0.knots.# 1");
         const float y = curves_y(&s->editor->core, s->document->splines[0]->knots[0].value);
         const struct rect plot = layout_of(s->editor)->plot;
         assert_true(y >= plot.y && y <= plot.y + plot.h);
-        if (held) walk(s, "release");
+        if (held) hands(s, "release");
     }
 }
 
@@ -192,60 +193,60 @@ BEAST_TEST(test_the_curves_show_a_knot_that_was_pulled, TAIL_UP)
 
 BEAST_TEST(test_the_inspector_chooses_the_clip, "")
 {
-    walk(s, "click model.clips.0; click item.Nod; is rigs.0.clip Nod;"
-            "click model.loops; is rigs.0.repeat once; click model.loops; is rigs.0.repeat loop;"
-            "key Ctrl+Z Ctrl+Z; step;"
-            "click model.clips.0; click item.none; is rigs.0.clip nothing; unchanged;"
-            "enter model.scale 2; enter model.turn 90; enter model.x 0.5; is rigs.0.scale 2; is rigs.0.turn 90;"
-            "is rigs.0.position.0 0.5");
+    hands(s, "click model.clips.0; click item.Nod; is rigs.0.clip Nod;"
+             "click model.loops; is rigs.0.repeat once; click model.loops; is rigs.0.repeat loop;"
+             "key Ctrl+Z Ctrl+Z; once;"
+             "click model.clips.0; click item.none; is rigs.0.clip nothing; kept;"
+             "enter model.scale 2; enter model.turn 90; enter model.x 0.5; is rigs.0.scale 2; is rigs.0.turn 90;"
+             "is rigs.0.position.0 0.5");
 }
 
 /// Each move of a drag makes its edit anew, of the chain as it was at the press. Its spline stays when the chain goes.
 BEAST_TEST(test_a_chain_is_edited_in_the_inspector, TAIL)
 {
-    walk(s, "pull chain.turn 40 0 6; is rigs.1.turn >0; is rigs.1.from tail_1; step; key Ctrl+Z;"
-            "click axis.twist; is rigs.1.channels.0.axis twist; click chain.mirror; is rigs.1.mirror true;"
-            "enter chain.turn 30; is rigs.1.turn 30; enter gain 11; is rigs.1.channels.0.gain 11;"
-            "click tail.name; key Ctrl+A; type brush; key Enter; is rigs.1.name brush;"
-            "click rig.delete; key K; is rigs.# 1; is splines.# 2; key Ctrl+Z*6; unchanged");
+    hands(s, "carry chain.turn 40 0 6; is rigs.1.turn > 0; is rigs.1.from tail_1; once; key Ctrl+Z;"
+             "click axis.twist; is rigs.1.channels.0.axis twist; click chain.mirror; is rigs.1.mirror true;"
+             "enter chain.turn 30; is rigs.1.turn 30; enter gain 11; is rigs.1.channels.0.gain 11;"
+             "click tail.name; key Ctrl+A; type brush; key Enter; is rigs.1.name brush;"
+             "click rig.delete; key K; is rigs.# 1; is splines.# 2; key 6*Ctrl+Z; kept");
 }
 
 /// A chain that follows bends by many degrees a metre: its slider goes that far, and stays as it is while it is dragged.
 BEAST_TEST(test_a_large_gain_is_on_its_slider, TAIL_UP)
 {
-    walk(s, "enter gain 86; slide gain 120; is rigs.1.channels.0.gain 120±2; release;"
-            "slide gain 30; is rigs.1.channels.0.gain 30±2; release");
+    hands(s, "enter gain 86; slide gain 120; is rigs.1.channels.0.gain 120 ~2; release;"
+             "slide gain 30; is rigs.1.channels.0.gain 30 ~2; release");
 }
 
 /// Its points are dragged, set beside the line by a double-click, and deleted down to two; lit, the button goes back to one angle.
 BEAST_TEST(test_a_gain_becomes_a_ramp_whose_points_move, TAIL)
 {
-    const char *before = s->mark;
-    walk(s, "click gain.ramp; is rigs.1.channels.0.gain.ramp.# 2; is rigs.1.channels.0.gain.ramp.1.1 8; mark;"
-            "pull gain.point.1 -40 -12; is rigs.1.channels.0.gain.ramp.1.1 >8;"
-            "is rigs.1.channels.0.gain.ramp.1.0 <1; step;"
-            "press gain.point.0; by 60 -8 1; release");
+    const char *before = s->kept;
+    hands(s, "click gain.ramp; is rigs.1.channels.0.gain.ramp.# 2; is rigs.1.channels.0.gain.ramp.1.1 8; keep;"
+             "carry gain.point.1 -40 -12; is rigs.1.channels.0.gain.ramp.1.1 > 8;"
+             "is rigs.1.channels.0.gain.ramp.1.0 < 1; once;"
+             "press gain.point.0; drag 60 -8 1; release");
     session_move(s, s->x + 8, s->y + 16);
     session_click_here(s, 2);
-    walk(s, "is rigs.1.channels.0.gain.ramp.# 3;"
-            "press gain.point.1; release; key Delete; is rigs.1.channels.0.gain.ramp.# 2;"
-            "key Delete; is rigs.1.channels.0.gain.ramp.# 2;"
-            "click gain.ramp; is rigs.1.channels.0.gain >0");
-    s->mark = before;
-    walk(s, "undone");
+    hands(s, "is rigs.1.channels.0.gain.ramp.# 3;"
+             "press gain.point.1; release; key Delete; is rigs.1.channels.0.gain.ramp.# 2;"
+             "key Delete; is rigs.1.channels.0.gain.ramp.# 2;"
+             "click gain.ramp; is rigs.1.channels.0.gain > 0");
+    s->kept = before;
+    hands(s, "undone");
 }
 
 BEAST_TEST(test_a_ramps_plot_is_as_high_as_its_points, TAIL)
 {
     const double *scale = s->editor->inspector->ramp_scale[ANGLE_GAIN];
-    walk(s, "click gain.ramp; pull gain.point.0 0 -30 2; is rigs.1.channels.0.gain.ramp.0.1 >10");
+    hands(s, "click gain.ramp; carry gain.point.0 0 -30 2; is rigs.1.channels.0.gain.ramp.0.1 > 10");
     assert_near(scale[1], 1.2 * number(s, "rigs.1.channels.0.gain.ramp.0.1"), 1e-9);
     session_move(s, s->x + 60, s->y + 50);
     session_click_here(s, 2); // a point between
-    walk(s, "pull gain.point.2 0 -80 2; is rigs.1.channels.0.gain.ramp.# 3");
+    hands(s, "carry gain.point.2 0 -80 2; is rigs.1.channels.0.gain.ramp.# 3");
     const double last = number(s, "rigs.1.channels.0.gain.ramp.2.1");
     assert_near(scale[1], 1.2 * last, 1e-9);
-    walk(s, "key Delete; is rigs.1.channels.0.gain.ramp.# 2"); // the highest
+    hands(s, "key Delete; is rigs.1.channels.0.gain.ramp.# 2"); // the highest
     const double ends[] = {number(s, "rigs.1.channels.0.gain.ramp.0.1"),
                            number(s, "rigs.1.channels.0.gain.ramp.1.1")};
     assert_true(fmax(ends[0], ends[1]) < last);
@@ -255,15 +256,15 @@ BEAST_TEST(test_a_ramps_plot_is_as_high_as_its_points, TAIL)
 /// Turned the other way round, as in a mirror. What has one already gets none, nor has a tail one.
 BEAST_TEST(test_a_chain_gets_a_twin_on_the_other_side, LEFT_EAR)
 {
-    walk(s, "enter chain.turn 30; mark");
+    hands(s, "enter chain.turn 30; keep");
     assert_null(missing(s->editor, NEEDS_TWIN));
-    walk(s, "click chain.twin; is rigs.# 3; is rigs.2.name ear_R; is rigs.2.from ear_R_1; is rigs.2.to ear_R_2;"
-            "is rigs.2.mirror true; is rigs.2.turn -30; is rigs.2.channels.0.spline flick; lacks chain.twin");
+    hands(s, "click chain.twin; is rigs.# 3; is rigs.2.name ear_R; is rigs.2.from ear_R_1; is rigs.2.to ear_R_2;"
+             "is rigs.2.mirror true; is rigs.2.turn -30; is rigs.2.channels.0.spline flick; lacks chain.twin");
     assert_non_null(missing(s->editor, NEEDS_TWIN));
-    walk(s, "step");
+    hands(s, "once");
     session_close(s);
     open_beast(s, "0", TAIL);
-    walk(s, "shows rig.delete; lacks chain.twin");
+    hands(s, "finds rig.delete; lacks chain.twin");
     assert_non_null(missing(s->editor, NEEDS_TWIN));
 }
 
@@ -271,7 +272,7 @@ BEAST_TEST(test_a_chain_gets_a_twin_on_the_other_side, LEFT_EAR)
 BEAST_TEST(test_a_clicked_chain_leaves_its_feel_in_sight, LEFT_EAR)
 {
     editor_resize(s->editor, 1280, 720, 1);
-    walk(s, "more off; on bone(ear_L_2); frames; is bone ear_L_2; is scrolled 0");
+    hands(s, "more off; click bone(ear_L_2); wait; is bone ear_L_2; is scrolled 0");
 }
 
 // --- bones that are chosen for something ------------------------------------------------------------------------------------
@@ -286,30 +287,32 @@ TEST(test_bones_are_chosen)
         const char *equilibrium, *steps;
     } rows[] = {
         // from the start it follows the tip of its chain, as the swing only: a metre is more of the tip than 1 of what knots directed
-        {"0", "click follow.equilibrium; click item.A joint of beast; step; is splines.0.equilibrium.joint tail_8;"
-              "is splines.0.equilibrium.of up; is splines.0.equilibrium.gain >1; is splines.0.equilibrium.chain tail;"
-              "has 'axis': 'up', 'of': 'displacement'; click follow.equilibrium; is splines.0.equilibrium 0±0.01"},
-        {FOLLOWS, "click joint.0; click item.neck; step; has 'joint': 'neck', 'of': 'turn', 'gain': 2"},
-        {FOLLOWS, "click joint.of.across; step; has 'joint': 'head', 'of': 'across', 'gain': 2"},
-        {FOLLOWS, "enter joint.gain -3; step; has 'joint': 'head', 'of': 'turn', 'gain': -3"},
-        {FOLLOWS, "tab joint.0; key Enter; type fr_2; shows item.leg_FR_2; lacks item.leg_FL_2; key Backspace;"
-                  "shows item.leg_FR_1; key Down Enter; step; is splines.0.equilibrium.joint leg_FR_2"},
-        {FOLLOWS, "click joint.pick; key Escape; on bone(leg_FL_2); unchanged"}, // only selected the bone
-        {FOLLOWS, "click joint.pick; carry bone(tail_4) 30 20; unchanged"},      // also over a chain
-        {FOLLOWS, "click joint.pick; carry bone(tail_4) 30 20; on bone(neck); step; has 'joint': 'neck'"},
-        {FOLLOWS, "click joint.pick; on bone(neck); on bone(spine); step; has 'joint': 'neck'"}, // one was asked for
+        {"0",
+         "click follow.equilibrium; click item.A_joint_of_beast; once; is splines.0.equilibrium.joint tail_8;"
+         "is splines.0.equilibrium.of up; is splines.0.equilibrium.gain > 1; is splines.0.equilibrium.chain tail;"
+         "saves 'axis': 'up', 'of': 'displacement'; click follow.equilibrium; is splines.0.equilibrium 0 ~0.01"},
+        {FOLLOWS, "click joint.0; click item.neck; once; saves 'joint': 'neck', 'of': 'turn', 'gain': 2"},
+        {FOLLOWS, "click joint.of.across; once; saves 'joint': 'head', 'of': 'across', 'gain': 2"},
+        {FOLLOWS, "enter joint.gain -3; once; saves 'joint': 'head', 'of': 'turn', 'gain': -3"},
+        {FOLLOWS, "tab joint.0; key Enter; type fr_2; finds item.leg_FR_2; lacks item.leg_FL_2; key Backspace;"
+                  "finds item.leg_FR_1; key Down Enter; once; is splines.0.equilibrium.joint leg_FR_2"},
+        {FOLLOWS, "click joint.pick; key Escape; click bone(leg_FL_2); kept"}, // only selected the bone
+        {FOLLOWS, "click joint.pick; carry bone(tail_4) 30 20; kept"},         // also over a chain
+        {FOLLOWS, "click joint.pick; carry bone(tail_4) 30 20; click bone(neck); once; saves 'joint': 'neck'"},
+        {FOLLOWS,
+         "click joint.pick; click bone(neck); click bone(spine); once; saves 'joint': 'neck'"}, // one was asked for
         // the end of a chain is below its first bone, and what follows its tip still does
-        {FOLLOWS_TIP, "click chain.to.1; lacks item.neck; click item.tail_6; step; is rigs.1.to tail_6;"
+        {FOLLOWS_TIP, "click chain.to.1; lacks item.neck; click item.tail_6; once; is rigs.1.to tail_6;"
                       "is splines.0.equilibrium.joint tail_6"},
-        {FOLLOWS_TIP, "click chain.from.1; type tail_2; key Enter; step; is rigs.1.from tail_2; is rigs.1.to tail_8"},
-        {"0", "click chain.from.pick; on bone(ear_L_1); step; is rigs.1.from ear_L_1; is rigs.1.to ear_L_2"},
-        {"0", "click chain.to.pick; on bone(neck); unchanged; errs expected \"neck\" below \"tail_1\""},
-        {"0", "click chain.from.pick; on bone(head); unchanged; errs \"head\" branches into"},
+        {FOLLOWS_TIP, "click chain.from.1; type tail_2; key Enter; once; is rigs.1.from tail_2; is rigs.1.to tail_8"},
+        {"0", "click chain.from.pick; click bone(ear_L_1); once; is rigs.1.from ear_L_1; is rigs.1.to ear_L_2"},
+        {"0", "click chain.to.pick; click bone(neck); kept; error expected \"neck\" below \"tail_1\""},
+        {"0", "click chain.from.pick; click bone(head); kept; error \"head\" branches into"},
     };
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         struct session s;
         open_beast(&s, rows[r].equilibrium, TAIL_UP);
-        walk(&s, "%s", rows[r].steps);
+        hands(&s, "%s", rows[r].steps);
         session_close(&s);
     }
 }
@@ -329,7 +332,7 @@ static int lines_on_stage(const struct session *s)
 SESSION_TEST(test_all_bones_are_shown_to_choose_from, open_beast(s, FOLLOWS, TAIL_UP))
 {
     const int without = lines_on_stage(s);
-    walk(s, "click joint.pick; at 2 2");
+    hands(s, "click joint.pick; at 2 2");
     assert_true(lines_on_stage(s) > without + 8);
 }
 
@@ -345,16 +348,17 @@ TEST(test_a_second_character_is_named)
         "{'fps': 24, 'frames': [0, 48], 'splines': [], 'rigs': [{'type': 'model', 'name': 'left', 'model': '%s', "
         "'position': [-1, 0, 0]}, {'type': 'model', 'name': 'right', 'model': '%s', 'position': [1, 0, 0]}]}",
         folder_path("beast.glb"), folder_path("beast.glb"));
-    panel_open_models(&s, quoted(text));
-    walk(&s, "frames");
+    panel_open_models(&s, text);
+    hands(&s, "wait");
     for (int rig = 0; rig < 2; rig++) {
         const char *side = rig ? "right" : "left";
-        walk(&s, "over bone(%s/neck); reads %s/neck; on bone(%s/neck)", side, side, side);
+        hands(&s, "hover bone(%s/neck); shows %s/neck; click bone(%s/neck)", side, side, side);
         assert_true(bones_selected(&s.editor->core, &model) >= 0);
         assert_int_equal(model, rig);
     }
-    walk(&s,
-         "on bone(right/tail_3); key J; says from right/tail_3 to tail_8; on bone(neck)"); // the first that there is
+    hands(
+        &s,
+        "click bone(right/tail_3); key J; said from right/tail_3 to tail_8; click bone(neck)"); // the first that there is
     assert_true(bones_selected(&s.editor->core, &model) >= 0);
     assert_int_equal(model, 0);
     session_close(&s);
@@ -468,9 +472,9 @@ static void open_written(struct session *s, void (*write)(struct builder *b))
              "{'fps': 24, 'frames': [0, 24], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'knots': "
              "[]}], 'rigs': [{'type': 'model', 'name': 'it', 'model': '%s'}]}",
              temporary_path("model.gltf"));
-    panel_open_models(s, quoted(text));
+    panel_open_models(s, text);
     s->editor->core.view.refit_stage = true;
-    walk(s, "at 2 2");
+    hands(s, "at 2 2");
 }
 
 static bool shows(const struct session *s, const char *bone)
@@ -518,7 +522,7 @@ RIG_TEST(test_bones_that_carry_nothing_show_with_alt)
         for (int i = 0; i < 10; i++)
             if (shows(s, bones[i]) != (i < 6 || alt)) fail_msg("%s, Alt %d", bones[i], alt);
         session_click_here(s, 1);
-        walk(s, "is bone %s", alt ? "foot_ik" : "");
+        hands(s, "is bone %s", alt ? "foot_ik" : "");
     }
 }
 
@@ -538,15 +542,15 @@ RIG_TEST(test_a_press_takes_the_bone_whose_part_is_drawn_there)
     for (size_t i = 0; i < sizeof presses / sizeof *presses; i++) {
         move_between(s, presses[i].from, presses[i].to, presses[i].share);
         session_click_here(s, 1);
-        walk(s, "is bone %s", presses[i].bone);
+        hands(s, "is bone %s", presses[i].bone);
     }
 }
 
 /// Neither the ring in the ear nor its leaf is a branch, or part of the chain.
 RIG_TEST(test_hover_names_the_chain_that_the_key_makes)
 {
-    walk(s, "over bone(ear_L_1); reads ear_L_1 to ear_L_2, 2 bones; over bone(head); reads head;"
-            "on bone(ear_L_1); key J; is rigs.1.from ear_L_1; is rigs.1.to ear_L_2");
+    hands(s, "hover bone(ear_L_1); shows ear_L_1 to ear_L_2, 2 bones; hover bone(head); shows head;"
+             "click bone(ear_L_1); key J; is rigs.1.from ear_L_1; is rigs.1.to ear_L_2");
 }
 
 static float size_of_ear(const struct session *s)
@@ -559,18 +563,18 @@ static float size_of_ear(const struct session *s)
 
 RIG_TEST(test_f_frames_the_selection_and_still_holds_frequency)
 {
-    walk(s, "on bone(ear_L_1)");
+    hands(s, "click bone(ear_L_1)");
     const float before = size_of_ear(s), height = layout_of(s->editor)->stage.h;
     session_hold(s, 'F', ACTION_PRESS);
-    walk(s, "key Up");
+    hands(s, "key Up");
     session_hold(s, 'F', ACTION_RELEASE);
-    walk(s, "frames; is splines.0.frequency >1");
+    hands(s, "wait; is splines.0.frequency > 1");
     assert_near(size_of_ear(s), before, 1e-3);
-    walk(s, "key F");
+    hands(s, "key F");
     const float framed = size_of_ear(s);
     assert_true(framed > 0.3f * height);
     session_move(s, 2, layout_of(s->editor)->plot.y + 20);
-    walk(s, "key Shift+Home F"); // not over the curves
+    hands(s, "key Shift+Home F"); // not over the curves
     assert_true(size_of_ear(s) < 0.5f * framed);
 }
 
@@ -594,6 +598,6 @@ SESSION_TEST(test_a_model_of_morphs_fills_the_view, open_written(s, write_runner
     const struct stage_model *model = &s->editor->stage->view.models[0];
     assert_true(model->hi[0] - model->lo[0] < 3);
     assert_true(figure.w > 0.5f * stage.w || figure.h > 0.5f * stage.h);
-    walk(s, "hides Click a bone, then press Shift+J to let it swing. F1 shows all keys;"
-            "reads It has no bones to bend. A adds a tail or a character, F1 shows all keys");
+    hands(s, "hides Click a bone, then press Shift+J to let it swing. F1 shows all keys;"
+             "shows It has no bones to bend. A adds a tail or a character, F1 shows all keys");
 }

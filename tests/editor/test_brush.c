@@ -2,7 +2,6 @@
 /// the distances that it works with.
 #include "folder.h"
 #include "hands.h"
-#include "panel_session.h"
 #include "puppet.h"
 #include "timing/framelog.h"
 

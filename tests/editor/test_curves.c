@@ -3,7 +3,6 @@
 #include "editor/core/knots.h"
 #include "five_knots.h"
 #include "hands.h"
-#include "panel_session.h"
 
 /// Already while the box grows, and where it shrinks again; then with modifiers.
 WALK(a_box_selects_adds_and_removes, session_open(s, FIVE),

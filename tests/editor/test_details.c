@@ -1,7 +1,6 @@
 /// Details of the editor, one each: notches of the wheel, lists longer than the screen and what typing finds in them, held letters, targets of
 /// recordings.
 #include "hands.h"
-#include "panel_session.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -107,7 +106,7 @@ SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
 {
     hands(s, "keep; hold F");
     offer_recovery(s->editor, &(struct recovery_offer){.name = "walk.json"});
-    hands(s, "asked %d; let F; key Escape; asked %d; key Up; kept", DIALOG_RECOVER, DIALOG_NONE);
+    hands(s, "is asked recover; let F; key Escape; is asked none; key Up; kept");
 }
 
 WALK(nothing_to_follow_is_an_error,
@@ -140,7 +139,7 @@ SESSION_TEST(a_target_from_the_pointer, session_open(s, tail))
 
 /// Knots before a first frame are asked about, as those behind a last one are.
 WALK(a_first_frame_asks_for_its_knots, panel_open(s, tail, 1280, 1600),
-     "click section.scene; enter scene.first 30; asked %d; key T; first 30; sway.knots 1; lift.knots 0", DIALOG_ASK)
+     "click section.scene; enter scene.first 30; is asked ask; key T; first 30; sway.knots 1; lift.knots 0")
 
 /// A preset is no state that something is in: none of their buttons looks like the one that Enter presses.
 SESSION_TEST(presets_look_alike_and_plain, panel_open(s, tail, 1280, 1400))

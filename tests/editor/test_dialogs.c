@@ -1,5 +1,5 @@
 /// Dialogs by their keys and buttons: open, save, quit, recover, export; and the card for new users.
-#include "walks.h"
+#include "hands.h"
 
 #include "app/state.h"
 
@@ -37,19 +37,19 @@ static int list_recent(void *user, struct dialog_recent *files, int most)
 
 static void open_files(struct session *s, const char *path)
 {
-    panel_open(s, quoted(scene), 960, 600);
+    panel_open(s, scene, 960, 600);
     list_files(s->editor, &(struct editor_app){.list = list_names, .recent = list_recent});
     set_path(s->editor, path);
     listings = 0;
 }
 
 #define FILES_WALK(name, path, ...)                                                                                  \
-    SESSION_TEST(name, open_files(s, path)) { walk(s, __VA_ARGS__); }
+    SESSION_TEST(name, open_files(s, path)) { hands(s, __VA_ARGS__); }
 
 // --- open ---------------------------------------------------------------------------------------------------------------
 
 FILES_WALK(test_recent_files, "x.json",
-           "key Ctrl+O; is matches 8; reads /home/me/scenes; reads no longer exists;"
+           "key Ctrl+O; is matches 8; shows /home/me/scenes; shows no longer exists;"
            "key Down Down Enter; asks nothing; is refused /home/me/gone.json no longer exists.;"
            "type x; is refused ;" // another file: what was wrong with that one is off the screen
            "key Backspace Up Enter; asks open /home/me/scenes/walk.json")
@@ -66,27 +66,27 @@ FILES_WALK(test_recent_files_are_filtered, "x.json",
 FILES_WALK(test_the_mouse_in_the_list, "x.json",
            "key Ctrl+O; tap two.json; asks nothing; is typed two.json;"
            "key Escape Ctrl+O; tap-twice two.json; asks open two.json; opened; answer open;"
-           "key Ctrl+O; frames; tap walk.json; asks open /home/me/scenes/walk.json; answer open no;"
+           "key Ctrl+O; wait; tap walk.json; asks open /home/me/scenes/walk.json; answer open no;"
            "key Escape Ctrl+O; wheel -1; is choice 2; wheel 1; is choice 0")
 
 /// Names that begin so come before those that have it in their middle. The folder is listed once, not at every key.
 SESSION_TEST(test_open_completes_paths, open_files(s, "x.json"))
 {
     const struct dialog *dialog = dialog_of(s->editor);
-    walk(s, "key Ctrl+O; type fi; is matches 4");
+    hands(s, "key Ctrl+O; type fi; is matches 4");
     assert_string_equal(dialog->names[dialog->match[0]], "figures/");
-    walk(s, "key Tab; is typed figure");
+    hands(s, "key Tab; is typed figure");
     assert_int_equal(listings, 1);
-    walk(s, "key Down Enter; is typed figures/; is matches 2; asks nothing;" // into the folder
-            "key Down Down Enter; asks open figures/two.json; answer open figures/two.json:3: expected a number;"
-            "is asked open; key Enter; asks open figures/two.json; opened; answer open; is asked none;"
-            "key Ctrl+O; type figures/t; is matches 1; hides Nothing matches.;"
-            "key Enter; asks open figures/two.json; answer open;" // the only file that can be meant
-            "key Ctrl+O; type nobody; reads Nothing matches.");
+    hands(s, "key Down Enter; is typed figures/; is matches 2; asks nothing;" // into the folder
+             "key Down Down Enter; asks open figures/two.json; answer open figures/two.json:3: expected a number;"
+             "is asked open; key Enter; asks open figures/two.json; opened; answer open; is asked none;"
+             "key Ctrl+O; type figures/t; is matches 1; hides Nothing matches.;"
+             "key Enter; asks open figures/two.json; answer open;" // the only file that can be meant
+             "key Ctrl+O; type nobody; shows Nothing matches.");
 }
 
 FILES_WALK(test_a_dialog_takes_every_key, "x.json",
-           "key Ctrl+O; type vim. ; key Ctrl+Z F1 Delete; is look wiggly; is lookup none; is typed vim. ; unchanged")
+           "key Ctrl+O; type vim. ; key Ctrl+Z F1 Delete; is look wiggly; is lookup none; is typed vim. ; kept")
 
 // --- save, and quit -------------------------------------------------------------------------------------------------------
 
@@ -95,8 +95,8 @@ FILES_WALK(test_save_as_stays_until_it_succeeds, "",
            "key Ctrl+S; is asked save-as; is typed untitled.json;"
            "type no/such/dog; key Enter; asks save-as no/such/dog.json;"
            "answer save-as no/such/dog.json: there is no such folder; is asked save-as;"
-           "is refused no/such/dog.json: there is no such folder; is said ;"
-           "key Backspace*20 Enter; asks nothing;" // nothing typed
+           "is refused no/such/dog.json: there is no such folder; said;"
+           "key 20*Backspace Enter; asks nothing;" // nothing typed
            "type untitled.json; key Enter; asks save-as untitled.json;"
            "path pets/dog.json; answer save-as; is asked none;"
            "key Ctrl+S; asks save; key Ctrl+Shift+S; is typed pets/dog.json")
@@ -105,36 +105,37 @@ FILES_WALK(test_save_as_stays_until_it_succeeds, "",
 static void open_unsaved(struct session *s, const char *path)
 {
     open_files(s, path);
-    walk(s, "key Right I Ctrl+Q; is asked unsaved");
+    hands(s, "key Right I Ctrl+Q; is asked unsaved");
 }
 
 SESSION_TEST(test_quitting_asks_for_unsaved_work, open_unsaved(s, "dog.json"))
 {
-    walk(s, "key Escape; is asked none; asks nothing;"
-            "key Ctrl+Q; type d; asks quit;"
-            "key Ctrl+Q Right Enter; asks quit"); // Discard
+    hands(s, "key Escape; is asked none; asks nothing;"
+             "key Ctrl+Q; type d; asks quit;"
+             "key Ctrl+Q Right Enter; asks quit"); // Discard
     session_close(s);
     open_files(s, "dog.json");
-    walk(s, "key Ctrl+Q; asks quit"); // nothing to lose
+    hands(s, "key Ctrl+Q; asks quit"); // nothing to lose
 }
 
 /// The work in memory stays until it is saved. What was never saved asks where first, and the S is no part of the name.
 SESSION_TEST(test_quit_waits_for_the_save, open_unsaved(s, "dog.json"))
 {
-    walk(s, "type s; asks save; asks nothing; answer save dog.json: the disk is full; asks nothing; is asked unsaved;"
-            "type s; asks save");
+    hands(s,
+          "type s; asks save; asks nothing; answer save dog.json: the disk is full; asks nothing; is asked unsaved;"
+          "type s; asks save");
     history_mark_saved(s->history);
-    walk(s, "path pets/dog.json; answer save; asks quit");
+    hands(s, "path pets/dog.json; answer save; asks quit");
     session_close(s);
     open_unsaved(s, "");
-    walk(s, "type s; is asked save-as; is typed untitled.json;"
-            "key Enter; asks save-as untitled.json; path pets/dog.json; answer save-as; asks quit");
+    hands(s, "type s; is asked save-as; is typed untitled.json;"
+             "key Enter; asks save-as untitled.json; path pets/dog.json; answer save-as; asks quit");
 }
 
 SESSION_TEST(test_cancelled_save_as_forgets_what_was_to_follow, open_unsaved(s, ""))
 {
-    walk(s, "type s; key Escape Ctrl+Shift+S Enter; asks save-as untitled.json;"
-            "path pets/dog.json; answer save-as; asks nothing"); // does not quit after all
+    hands(s, "type s; key Escape Ctrl+Shift+S Enter; asks save-as untitled.json;"
+             "path pets/dog.json; answer save-as; asks nothing"); // does not quit after all
 }
 
 // --- recovery -----------------------------------------------------------------------------------------------------------
@@ -142,25 +143,25 @@ SESSION_TEST(test_cancelled_save_as_forgets_what_was_to_follow, open_unsaved(s, 
 static void open_offer(struct session *s)
 {
     open_files(s, "x.json");
-    walk(s, "offer; reads Recover unsaved work on walk.json?");
+    hands(s, "offer; shows Recover unsaved work on walk.json?");
 }
 
 /// The keys are the dialog's. What is broken leaves the choice open, and so does what answers something else.
 SESSION_TEST(test_recover, open_offer(s))
 {
-    walk(s, "key Delete; unchanged; key Enter; asks recover; answer recover recovery-1:3: expected a number;"
-            "is asked recover; key R; asks recover");
+    hands(s, "key Delete; kept; key Enter; asks recover; answer recover recovery-1:3: expected a number;"
+             "is asked recover; key R; asks recover");
     tell(s->editor, true, "Unsaved work cannot be kept.");
-    walk(s, "is asked recover; answer screenshot; is asked recover; opened; answer recover; is asked none");
+    hands(s, "is asked recover; answer screenshot; is asked recover; opened; answer recover; is asked none");
 }
 
 /// Discarding offers the next one, if there is one; Esc, or closing the window, decides it later.
 SESSION_TEST(test_discard_and_later, open_offer(s))
 {
-    walk(s,
-         "tap Discard; asks forget; offer; answer forget; is asked recover; key Escape; is asked none; asks nothing;"
-         "offer; tap Discard; asks forget; answer forget; is asked none;"
-         "offer; close; asks quit");
+    hands(s,
+          "tap Discard; asks forget; offer; answer forget; is asked recover; key Escape; is asked none; asks nothing;"
+          "offer; tap Discard; asks forget; answer forget; is asked none;"
+          "offer; close; asks quit");
 }
 
 // --- the card -----------------------------------------------------------------------------------------------------------
@@ -168,12 +169,12 @@ SESSION_TEST(test_discard_and_later, open_offer(s))
 /// The card for new users goes with a click on it (and only there), Esc, the help, or an edit; not by itself.
 SESSION_TEST(test_welcome, open_files(s, "x.json"))
 {
-    walk(s, "hides Got it; welcome; key Right; reads Got it; tap Got it; is welcoming 0;"
-            "welcome; key Escape; is welcoming 0;"
-            "welcome; key F1; is welcoming 0; key F1; welcome");
+    hands(s, "hides Got it; welcome; key Right; shows Got it; tap Got it; is welcoming 0;"
+             "welcome; key Escape; is welcoming 0;"
+             "welcome; key F1; is welcoming 0; key F1; welcome");
     session_hold(s, KEY_F1, ACTION_PRESS); // and Esc within the same slow frame
-    walk(s, "key Escape; is welcoming 0;"
-            "welcome; key I; is splines.0.knots.# 3; is welcoming 0; hides Got it");
+    hands(s, "key Escape; is welcoming 0;"
+             "welcome; key I; is splines.0.knots.# 3; is welcoming 0; hides Got it");
 }
 
 /// What the card says suits the scene, and the status line; also after a character of one's own is dropped on the window.
@@ -207,12 +208,12 @@ TEST(test_advice_names_what_is_there)
         char text[1024];
         snprintf(text, sizeof text, "{'frames': [0, 24], 'splines': %s, 'rigs': [%s]}", rows[r].splines,
                  rows[r].rigs);
-        panel_open(&s, quoted(text), 1280, 720);
+        panel_open(&s, text, 1280, 720);
         hush(s.editor); // that there is no such model
-        walk(&s, "welcome; reads %s; reads %s", rows[r].card, rows[r].status);
-        if (strcmp(rows[r].card, "Press Shift+J") == 0) walk(&s, "hides Drop a .glb");
+        hands(&s, "welcome; shows %s; shows %s", rows[r].card, rows[r].status);
+        if (strcmp(rows[r].card, "Press Shift+J") == 0) hands(&s, "hides Drop a .glb");
         session_send(&s, (struct event){.kind = EVENT_DROP, .path = "/home/ada/rex.glb"});
-        walk(&s, "asks open /home/ada/rex.glb");
+        hands(&s, "asks open /home/ada/rex.glb");
         session_close(&s);
     }
 }
@@ -241,10 +242,10 @@ SESSION_TEST(test_buttons_fit_the_smallest_window, open_files(s, "x.json"))
 
 static void open_export(struct session *s, const char *text, const char *path, float width, float height)
 {
-    panel_open(s, quoted(text), width, height);
+    panel_open(s, text, width, height);
     list_files(s->editor, &(struct editor_app){.format_count = exporting_format_count()});
     set_path(s->editor, path);
-    walk(s, "key Ctrl+E; is asked export");
+    hands(s, "key Ctrl+E; is asked export");
 }
 
 #define EXPORT_TEST(name) SESSION_TEST(name, open_export(s, scene, "walk.json", 1280, 720))
@@ -268,7 +269,7 @@ static struct request exported(struct session *s)
 
 SESSION_TEST(test_enter_exports_the_scene, open_export(s, scene, "work/walk.json", 1280, 720))
 {
-    walk(s, "reads Write walk.glb; key Enter");
+    hands(s, "shows Write walk.glb; key Enter");
     const struct request request = exported(s);
     assert_string_equal(request.path, "work/walk.glb");
     assert_true(!request.wish.part && request.wish.keys == 0);
@@ -292,18 +293,18 @@ TEST(test_what_enter_writes)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct session s;
         open_export(&s, rows[i].scene, rows[i].path, 1280, 720);
-        walk(&s, "type %s; key Enter; asks export %s", rows[i].typed, rows[i].writes);
+        hands(&s, "type %s; key Enter; asks export %s", rows[i].typed, rows[i].writes);
         session_close(&s);
     }
 }
 
 EXPORT_TEST(test_the_ending_is_the_format)
 {
-    walk(s, "type take.csv; is export.ending .csv; hides clip;" // over the selected name
-            "key Down; is export.path take.pc2;"
-            "tap .mp4; reads Write take.mp4;"
-            "reads 49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
-            "tap take.mp4; type 2; reads Write take.mp42.mp4"); // back in the name, where typing goes on
+    hands(s, "type take.csv; is export.ending .csv; hides clip;" // over the selected name
+             "key Down; is export.path take.pc2;"
+             "tap .mp4; shows Write take.mp4;"
+             "shows 49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
+             "tap take.mp4; type 2; shows Write take.mp42.mp4"); // back in the name, where typing goes on
 }
 
 EXPORT_TEST(test_choices_are_asked_for)
@@ -315,12 +316,12 @@ EXPORT_TEST(test_choices_are_asked_for)
     } fields[] = {{"frames", "12", 120, 0}, {"keys a frame", "1", 130, 1}, {"keys a frame", "4", 130, 4}};
     for (int i = 0; i < 3; i++) {
         fill(s, fields[i].word, fields[i].right, fields[i].number);
-        walk(s, "key Enter; is export.keys %d", fields[i].keys);
+        hands(s, "key Enter; is export.keys %d", fields[i].keys);
     }
-    walk(s, "tap as the scene; type Swing; is export.path walk.glb;" // the name is another line of text
-            "tap all rigs; reads 145 keys, 96 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
-            "hides signed morph targets;" // tails have none
-            "tap Write walk.glb");
+    hands(s, "tap as the scene; type Swing; is export.path walk.glb;" // the name is another line of text
+             "tap all rigs; shows 145 keys, 96 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
+             "hides signed morph targets;" // tails have none
+             "tap Write walk.glb");
     const struct export_wish wish = exported(s).wish;
     assert_true(wish.part && wish.first == 12 && wish.last == 48 && wish.keys == 4);
     assert_string_equal(wish.clip, "Swing");
@@ -330,14 +331,14 @@ EXPORT_TEST(test_choices_are_asked_for)
 /// A file that holds one rig is offered no other choice than one. Pictures have a size. Esc belongs to a number while it is typed.
 EXPORT_TEST(test_choices_of_formats)
 {
-    walk(s, "tap .pc2; hides all rigs; tap fox; tap cat; reads fox; tap .gif; reads 640");
+    hands(s, "tap .pc2; hides all rigs; tap fox; tap cat; shows fox; tap .gif; shows 640");
     fill(s, "size", 120, "320");
-    walk(s, "key Enter; tap Write walk.gif");
+    hands(s, "key Enter; tap Write walk.gif");
     const struct export_wish wish = exported(s).wish;
     assert_true(wish.width == 320 && wish.height == 360);
-    walk(s, "answer export; key Ctrl+E");
+    hands(s, "answer export; key Ctrl+E");
     fill(s, "frames", 120, "5");
-    walk(s, "key Escape; is asked export");
+    hands(s, "key Escape; is asked export");
     assert_true(s->editor->dialogs->exporting.memory.wish.first == 0);
 }
 
@@ -352,9 +353,9 @@ TEST(test_rigs_of_long_names_can_be_chosen)
              "'sway'}, {'type': 'tail', 'name': '%s2', 'spline': 'sway'}]}",
              stem, stem);
     open_export(&s, text, "two.json", 1280, 720);
-    walk(&s, "tap all rigs");
+    hands(&s, "tap all rigs");
     session_click_here(&s, 1);
-    walk(&s, "tap Write two.glb");
+    hands(&s, "tap Write two.glb");
     assert_int_equal(exported(&s).wish.rig, s.document->rigs[1]->id);
     session_close(&s);
 }
@@ -369,7 +370,7 @@ SESSION_TEST(
                 "'dog', 'from': 'c', 'to': 'd', 'channels': [{'spline': 'sway'}]}]}",
                 "dog.json", 1280, 720))
 {
-    walk(s, "tap .pc2; hides brush; hides all clips; tap .bvh; hides brush; hides all clips; tap .glb");
+    hands(s, "tap .pc2; hides brush; hides all clips; tap .bvh; hides brush; hides all clips; tap .glb");
     const struct draw_command *label = shown_text(s->editor, "all clips");
     assert_non_null(label);
     session_move(s, label->x - 20, label->y - 4);
@@ -384,33 +385,33 @@ SESSION_TEST(test_pictures_of_a_loop,
                          "[{'frame': 0, 'value': 1}]}]}",
                          "walk.json", 1280, 720))
 {
-    walk(s, "tap .png; reads 121 pictures, 60 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
-            "tap .gif; reads 100 pictures, 50 a second. ↑ ↓ choose the format, Tab goes to the choices.");
+    hands(s, "tap .png; shows 121 pictures, 60 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
+             "tap .gif; shows 100 pictures, 50 a second. ↑ ↓ choose the format, Tab goes to the choices.");
 }
 
 /// Nothing else is done meanwhile.
 EXPORT_TEST(test_cancelling)
 {
-    walk(s, "key Enter; asks export walk.glb");
+    hands(s, "key Enter; asks export walk.glb");
     s->editor->core.app.figures = &(struct figures){.ui_scale = 1, .done = 30, .total = 97};
-    walk(s, "frames; reads 30 of 97. Esc cancels and leaves nothing behind.;"
-            "key Delete; type x; unchanged; is export.path walk.glb;"
-            "key Escape; asks stop; tap Cancel; asks stop;"
-            "answer export Cancelled. Nothing was written.; frames; reads Cancelled. Nothing was written.;"
-            "key Escape; is asked none; asks nothing");
+    hands(s, "wait; shows 30 of 97. Esc cancels and leaves nothing behind.;"
+             "key Delete; type x; kept; is export.path walk.glb;"
+             "key Escape; asks stop; tap Cancel; asks stop;"
+             "answer export Cancelled. Nothing was written.; wait; shows Cancelled. Nothing was written.;"
+             "key Escape; is asked none; asks nothing");
 }
 
 /// The next scene gets its own name, in the format of last time, whichever that was.
 EXPORT_TEST(test_remembered)
 {
-    walk(s, "type films/first.webm; tap transparent; key Escape Ctrl+E; reads films/first.webm; key Escape; opened;"
-            "path work/run.json; key Ctrl+E; reads work/run.webm");
+    hands(s, "type films/first.webm; tap transparent; key Escape Ctrl+E; shows films/first.webm; key Escape; opened;"
+             "path work/run.json; key Ctrl+E; shows work/run.webm");
     for (int format = 0; format < exporting_format_count(); format++) {
         struct export_memory memory = {.path = "films/first"};
         strncat(memory.path, export_formats[format].ending, 16);
-        walk(s, "key Escape");
+        hands(s, "key Escape");
         dialogs_set_export(s->editor->dialogs, &memory);
-        walk(s, "key Ctrl+E");
+        hands(s, "key Ctrl+E");
         assert_string_equal(strrchr(s->editor->dialogs->exporting.memory.path, '.'), export_formats[format].ending);
     }
 }

@@ -1,6 +1,6 @@
 /// What the editor shows, frame by frame: playback, views, the tail that is pulled, overlays on the stage, and what it costs. Without GL.
 #include "editor/stage/state.h"
-#include "walks.h"
+#include "hands.h"
 
 #include "timing/framelog.h"
 #include "ui/theme.h"
@@ -13,7 +13,7 @@ static const char TAIL[] =
     "'value': -0.2}]}], 'rigs': [{'type':'tail', 'name': 'tail', 'position': [0, 0.4, 0], 'channels': [{'spline': "
     "'sway', 'axis': 'side'},{'spline': 'lift', 'axis': 'up', 'gain': 3}]}]}";
 
-#define TAIL_TEST(name) SESSION_TEST(name, session_open(s, quoted(TAIL)))
+#define TAIL_TEST(name) SESSION_TEST(name, session_open(s, TAIL))
 
 // --- the tail that is pulled ------------------------------------------------------------------------------------------------
 
@@ -22,7 +22,7 @@ static void pull(struct session *s, const char *target, float dx, float dy)
 {
     float at[2];
     session_pull(s, target, dx, dy, 20);
-    walk(s, "frames 30");
+    hands(s, "wait 30");
     session_where(s, target, at);
     assert_near(at[0], s->x, 2);
     assert_near(at[1], s->y, 2);
@@ -32,11 +32,11 @@ static void pull(struct session *s, const char *target, float dx, float dy)
 /// A pull is one step, with one knot in each channel at the playhead; another moves the knots that are there then.
 TAIL_TEST(test_the_tail_follows_the_hand)
 {
-    walk(s, "on ruler(60)");
+    hands(s, "click ruler(60)");
     pull(s, "tail(tail,0.95)", 60, -40);
-    walk(s, "is splines.0.knots.# 4; is splines.1.knots.# 3; is splines.0.knots.2.frame 60");
+    hands(s, "is splines.0.knots.# 4; is splines.1.knots.# 3; is splines.0.knots.2.frame 60");
     pull(s, "tail(tail,0.5)", -20, 10);
-    walk(s, "is splines.0.knots.# 4; key Ctrl+Z Ctrl+Z; is undo nothing; unchanged");
+    hands(s, "is splines.0.knots.# 4; key Ctrl+Z Ctrl+Z; label; kept");
 }
 
 static int selected_from(const struct session *s, unsigned id)
@@ -49,21 +49,21 @@ static int selected_from(const struct session *s, unsigned id)
 /// Its ids are given again.
 TAIL_TEST(test_a_pull_taken_back_leaves_nothing_selected)
 {
-    walk(s, "on ruler(10)"); // no knot is near
+    hands(s, "click ruler(10)"); // no knot is near
     const unsigned next = s->document->next_id;
-    walk(s, "hold tail(tail,0.9) 30 10 5");
+    hands(s, "pull tail(tail,0.9) 30 10 5");
     assert_int_equal(selected_from(s, next), 1);
-    walk(s, "key Escape");
+    hands(s, "key Escape");
     assert_int_equal(s->document->next_id, next);
     assert_int_equal(selected_from(s, next), 0);
 }
 
 TAIL_TEST(test_a_pull_out_of_reach_stays_calm)
 {
-    walk(s, "hold tail(tail,0.9) -5000 3000 5; frames 100");
+    hands(s, "pull tail(tail,0.9) -5000 3000 5; wait 100");
     for (int i = 0; i < s->work.evaluation.samples; i++)
         assert_true(fabs(s->work.evaluation.curves[0].total[i]) < 100);
-    walk(s, "key Escape; unchanged");
+    hands(s, "key Escape; kept");
 }
 
 /// However often the hand goes around the root, the tail winds up once.
@@ -90,11 +90,11 @@ TEST(test_a_pull_is_done_within_twelve_frames)
     for (int frame = 5; frame < 100; frame += 12) {
         struct session s;
         float at[2], later[2];
-        session_open(&s, quoted(TAIL));
-        walk(&s, "on ruler(%d); hold tail(tail,0.9) 40 -30 1; frames 11", frame);
+        session_open(&s, TAIL);
+        hands(&s, "click ruler(%d); pull tail(tail,0.9) 40 -30 1; wait 11", frame);
         session_where(&s, "tail(tail,0.9)", at);
         arrived += hypotf(at[0] - s.x, at[1] - s.y) < 0.5f;
-        walk(&s, "frames 30");
+        hands(&s, "wait 30");
         session_where(&s, "tail(tail,0.9)", later);
         assert_near(hypotf(at[0] - later[0], at[1] - later[1]), 0, 0.5);
         session_close(&s);
@@ -113,7 +113,7 @@ static bool is_in(const uint64_t *hashes, int count, uint64_t hash)
 
 TAIL_TEST(test_playing_redraws_the_playhead_only)
 {
-    walk(s, "key Space; frames 400"); // messages are gone by then
+    hands(s, "key Space; wait 400"); // messages are gone by then
     const struct drawlist *list = drawn_by(s->editor);
     const int count = list->count;
     int changed = 0;
@@ -145,21 +145,21 @@ static void sum(const struct session *s, uint64_t sums[3])
 TAIL_TEST(test_nothing_changes_while_nothing_happens)
 {
     uint64_t first[3], again[3];
-    walk(s, "frames 400");
+    hands(s, "wait 400");
     sum(s, first);
     session_frame(s);
     sum(s, again);
     assert_memory_equal(first, again, sizeof first);
-    walk(s, "is wants.frames 0");
+    hands(s, "is wants.frames 0");
     tell(s->editor, true, "The disk is full.");
-    walk(s, "is wants.frames 1; frames; is wants.frames 0");
+    hands(s, "is wants.frames 1; wait; is wants.frames 0");
 }
 
 TAIL_TEST(test_steady_frames_allocate_nothing)
 {
-    static const char *const whiles[] = {"key Space; frames", "hold knot(sway,1) 10 -20 5; frames"};
+    static const char *const whiles[] = {"key Space; wait", "pull knot(sway,1) 10 -20 5; wait"};
     for (int held = 0; held < 2; held++) { // it plays; a knot is held while it plays
-        walk(s, "%s", whiles[held]);
+        hands(s, "%s", whiles[held]);
         const long before = allocation_count();
         for (int i = 0; i < 60; i++) session_frame(s);
         assert_int_equal(allocation_count() - before, 0);
@@ -202,7 +202,7 @@ TAIL_TEST(test_the_drawn_curve_goes_through_its_knots)
     for (int k = 0; k < 3; k++) {
         int count;
         float nearest = 1e9f;
-        walk(s, "over knot(sway,%d)", k);
+        hands(s, "hover knot(sway,%d)", k);
         const float *xy = active_line(s, &count);
         for (int i = 0; i < count; i++) nearest = fminf(nearest, hypotf(xy[2 * i] - s->x, xy[2 * i + 1] - s->y));
         assert_near(nearest, 0, 0.01);
@@ -210,8 +210,8 @@ TAIL_TEST(test_the_drawn_curve_goes_through_its_knots)
 }
 
 SESSION_TEST(test_fine_oscillations_are_drawn_as_their_band,
-             session_open(s, quoted("{'frames': [0, 24000], 'splines': [{'name': 'hum', 'mode': 'real', 'frequency': "
-                                    "3, 'damping': 0, 'knots': [{'frame': 0, 'value': 1}]}]}")))
+             session_open(s, "{'frames': [0, 24000], 'splines': [{'name': 'hum', 'mode': 'real', 'frequency': "
+                             "3, 'damping': 0, 'knots': [{'frame': 0, 'value': 1}]}]}"))
 {
     int count;
     const float *xy = active_line(s, &count);
@@ -241,7 +241,7 @@ TEST(test_finite_curves_at_every_extreme)
             end += sprintf(end, "%s{'frame':%d,'value':%d%s}", k ? "," : "", 2 * k + 1, k % 3,
                            k % 5 == 4 ? ",'slope':1" : "");
         sprintf(end, "]}]}");
-        session_open(&s, quoted(text));
+        session_open(&s, text);
         for (int i = 0; i < 9 * 16; i++) {
             const int mode = i / 48, start = i / 16 % 3, ends = i % 16;
             history_begin(s.history, "extremes", 1);
@@ -280,14 +280,15 @@ static bool curves_say(const struct session *s, const char *text)
 TAIL_TEST(test_the_curves_say_how_they_are_shown)
 {
     assert_false(curves_say(s, "phase"));
-    walk(s, "key Shift+V");
+    hands(s, "key Shift+V");
     assert_true(curves_say(s, "phase"));
-    walk(s, "key V V");
+    hands(s, "key V V");
     assert_true(curves_say(s, "Cubic"));
     assert_false(curves_say(s, "phase"));
-    walk(s, "on ruler(50); key Space; frames 3; key Space"); // at 24 fps four frames of 1/60 s are 1.6 of the scene's
+    hands(s,
+          "click ruler(50); key Space; wait 3; key Space"); // at 24 fps four frames of 1/60 s are 1.6 of the scene's
     assert_true(curves_say(s, "52"));
-    walk(s, "key I; is splines.0.knots.2.frame 52");
+    hands(s, "key I; is splines.0.knots.2.frame 52");
 }
 
 // --- time, views, windows -----------------------------------------------------------------------------------------------------
@@ -296,18 +297,18 @@ TAIL_TEST(test_the_curves_say_how_they_are_shown)
 TAIL_TEST(test_playing_and_scrubbing)
 {
     const struct stage_view *stage = editor_stage(s->editor);
-    walk(s, "on ruler(30); is playing 0");
+    hands(s, "click ruler(30); is playing 0");
     const uint64_t at_30 = stage->hash;
-    walk(s, "key Right");
+    hands(s, "key Right");
     assert_true(stage->hash != at_30);
-    walk(s, "key Left");
+    hands(s, "key Left");
     assert_true(stage->hash == at_30);
-    walk(s, "key Shift+Right");
+    hands(s, "key Shift+Right");
     const uint64_t at_end = stage->hash;
-    walk(s, "key Shift+Left");
+    hands(s, "key Shift+Left");
     assert_true(stage->hash == at_end);
     // 300 frames of 1/60 s are the whole loop of 5 s
-    walk(s, "on ruler(30); key Space; frames 299; is playing 1; key Space; on ruler(30)");
+    hands(s, "click ruler(30); key Space; wait 299; is playing 1; key Space; click ruler(30)");
     assert_true(stage->hash == at_30);
 }
 
@@ -317,13 +318,13 @@ TAIL_TEST(test_the_curves_are_panned_and_zoomed)
     float from[2], at[2];
     session_where(s, "curve(sway,60,0)", from);
     session_hold(s, KEY_SPACE, ACTION_PRESS);
-    walk(s, "carry curve(sway,60,0) 35 -12");
+    hands(s, "carry curve(sway,60,0) 35 -12");
     session_hold(s, KEY_SPACE, ACTION_RELEASE);
     for (int back = 0; back < 2; back++) {
         session_where(s, "curve(sway,60,0)", at);
         assert_near(at[0], from[0] + (back ? 0 : 35), 0.1);
         assert_near(at[1], from[1] - (back ? 0 : 12), 0.1);
-        walk(s, "is playing 0; key Home");
+        hands(s, "is playing 0; key Home");
     }
     for (int i = 0; i < 3; i++) {
         session_point(s, "knot(sway,1)");
@@ -344,9 +345,9 @@ TAIL_TEST(test_the_stage_is_turned_and_comes_back)
     memcpy(lamp, editor_stage(s->editor)->key_from, sizeof lamp);
     memcpy(view, editor_stage(s->editor)->view, sizeof view);
     session_where(s, "tail(tail,0.9)", before);
-    walk(s, "on knot(sway,1); key Alt+Up");
+    hands(s, "click knot(sway,1); key Alt+Up");
     assert_memory_equal(view, editor_stage(s->editor)->view, sizeof view);
-    walk(s, "key Ctrl+Z");
+    hands(s, "key Ctrl+Z");
     session_point(s, "stage(0.9,0.2)");
     session_press(s, BUTTON_RIGHT, 1);
     session_drag(s, 90, 30, 3);
@@ -355,7 +356,7 @@ TAIL_TEST(test_the_stage_is_turned_and_comes_back)
     assert_memory_equal(lamp, editor_stage(s->editor)->key_from, sizeof lamp);
     for (int over = 0; over < 2; over++) {
         session_point(s, over ? "stage(0.9,0.2)" : "curve(sway,60,0)");
-        walk(s, "key Home");
+        hands(s, "key Home");
         session_where(s, "tail(tail,0.9)", after);
         const float apart = hypotf(after[0] - before[0], after[1] - before[1]);
         assert_true(over ? apart < 0.02f : apart > 5);
@@ -375,7 +376,7 @@ TAIL_TEST(test_windows_and_dividers)
     }
     const float height = stage->viewport.h;
     for (int let_go = 0; let_go < 2; let_go++) {
-        walk(s, let_go ? "by 0 -100" : "carry divider(stage) 0 -100");
+        hands(s, let_go ? "drag 0 -100" : "carry divider(stage) 0 -100");
         assert_near(stage->viewport.h, height - 100, 1);
     }
 }
@@ -449,25 +450,25 @@ static void middle_of(const struct session *s, const struct draw_command *comman
 
 #define SKINS(s) find(s, DRAW_LINE, theme()->spline[0])
 #define MARKS(s) find(s, DRAW_RECT, theme()->playhead)
-#define NINE_TEST(name) SESSION_TEST(name, session_open(s, quoted(nine)))
+#define NINE_TEST(name) SESSION_TEST(name, session_open(s, nine))
 
 /// Of nine knots eight, the ninth is the farthest; in the frame of a nudge.
 NINE_TEST(test_onion_shows_the_nearest_knots)
 {
     assert_int_equal(SKINS(s).count, 0);
-    walk(s, "key F4 O"); // no ghost besides
+    hands(s, "key F4 O"); // no ghost besides
     struct found skins = SKINS(s);
     assert_int_equal(skins.count, 8);
     const struct draw_command *nearest = skins.command[7], *farthest = skins.command[0];
     assert_true((nearest->color & 0xFF) > (farthest->color & 0xFF));
     const uint64_t before = nearest->hash;
-    walk(s, "on knot(sway,0); key Alt+Up");
+    hands(s, "click knot(sway,0); key Alt+Up");
     skins = SKINS(s);
     assert_int_equal(skins.count, 8);
     assert_true(skins.command[7]->hash != before);
-    walk(s, "key Delete Ctrl+A Delete");
+    hands(s, "key Delete Ctrl+A Delete");
     assert_int_equal(SKINS(s).count, 0);
-    walk(s, "key O; is onion 0");
+    hands(s, "key O; is onion 0");
 }
 
 /// How often a line crosses itself.
@@ -487,7 +488,7 @@ static int crossings(const struct session *s, const struct draw_command *command
 
 NINE_TEST(test_outlines_do_not_fold_from_any_side)
 {
-    walk(s, "key F4 O");
+    hands(s, "key F4 O");
     for (int a = 0; a < 24; a++) {
         camera_of(s->editor)->azimuth = 6.2831853f * (float)a / 24;
         session_frame(s);
@@ -501,20 +502,20 @@ NINE_TEST(test_outlines_do_not_fold_from_any_side)
 NINE_TEST(test_the_arc_is_where_the_tip_goes)
 {
     float middle[3][2];
-    walk(s, "key Shift+O");
+    hands(s, "key Shift+O");
     assert_in_range(MARKS(s).count, 44, 49);
     for (int step = 1; step <= 3; step++) {
         float expected[2], tip[2];
         middle_of(s, MARKS(s).command[step], expected);
-        walk(s, "key Right*%d", step);
+        hands(s, "key %d*Right", step);
         session_where(s, "tail(tail,1)", tip);
         assert_near(tip[0], expected[0], 0.1);
         assert_near(tip[1], expected[1], 0.1);
-        walk(s, "key Shift+Left");
+        hands(s, "key Shift+Left");
     }
-    static const char *const edits[] = {"frames", "on knot(sway,1); key Shift+Alt+Up", "key Ctrl+Z"};
+    static const char *const edits[] = {"wait", "click knot(sway,1); key Shift+Alt+Up", "key Ctrl+Z"};
     for (int i = 0; i < 3; i++) {
-        walk(s, "%s", edits[i]);
+        hands(s, "%s", edits[i]);
         middle_of(s, MARKS(s).command[14], middle[i]);
     }
     assert_true(hypotf(middle[1][0] - middle[0][0], middle[1][1] - middle[0][1]) > 2);
@@ -522,10 +523,9 @@ NINE_TEST(test_the_arc_is_where_the_tip_goes)
 }
 
 /// Both stay as they are when another document comes, and neither minds one without tails.
-SESSION_TEST(test_overlays_outlive_documents,
-             session_open(s, quoted("{'frames': [0, 9], 'splines': [{'name': 'x'}]}")))
+SESSION_TEST(test_overlays_outlive_documents, session_open(s, "{'frames': [0, 9], 'splines': [{'name': 'x'}]}"))
 {
-    walk(s, "key O Shift+O; opened; frames; is onion 1; is trail 1");
+    hands(s, "key O Shift+O; opened; wait; is onion 1; is trail 1");
 }
 
 /// The pose at the knot in hand, as the curve is in this frame, and for a moment after a nudge.
@@ -535,11 +535,11 @@ NINE_TEST(test_the_ghost_is_the_pose_at_the_knot_in_hand)
         const char *does;
         int ghosts;
     } rows[] = {
-        {"hold knot(sway,2) 0 20 2", 1},        {"by 0 20 1", 1}, {"release", 0}, {"key Alt+Up", 1}, {"frames 90", 0},
-        {"key F4; hold knot(sway,2) 0 20 2", 0}};
+        {"pull knot(sway,2) 0 20 2", 1},        {"drag 0 20 1", 1}, {"release", 0}, {"key Alt+Up", 1}, {"wait 90", 0},
+        {"key F4; pull knot(sway,2) 0 20 2", 0}};
     uint64_t hash[2] = {0, 0};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        walk(s, "%s", rows[i].does);
+        hands(s, "%s", rows[i].does);
         const struct found ghost = SKINS(s);
         if (ghost.count != rows[i].ghosts) fail_msg("%s: %d ghosts", rows[i].does, ghost.count);
         if (i < 2) hash[i] = ghost.command[0]->hash;
@@ -550,10 +550,9 @@ NINE_TEST(test_the_ghost_is_the_pose_at_the_knot_in_hand)
 static void open_bear(struct session *s)
 {
     panel_open_models(
-        s,
-        quoted("{'frames': [0, 96], 'splines': [{'name': 'swing', 'knots': [{'frame': 0, 'value': 0}, {'frame': 40, "
-               "'value': 1}]}], 'rigs': [{'type': 'character', 'name': 'bear', 'model': "
-               "'assets/models/creature.glb', 'coordinates': [{'name': 'side', 'spline': 'swing'}]}]}"));
+        s, "{'frames': [0, 96], 'splines': [{'name': 'swing', 'knots': [{'frame': 0, 'value': 0}, {'frame': 40, "
+           "'value': 1}]}], 'rigs': [{'type': 'character', 'name': 'bear', 'model': "
+           "'assets/models/creature.glb', 'coordinates': [{'name': 'side', 'spline': 'swing'}]}]}");
     session_frame(s);
 }
 

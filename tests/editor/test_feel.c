@@ -1,7 +1,6 @@
 /// What an animator feels first: presets, time to settle, wind-up, what is the limb's, the dice, poles dragged in the inset, what stays in its place,
 /// and a sentence on every control near the pointer.
 #include "hands.h"
-#include "panel_session.h"
 
 static const char tail_scene[] = "{'wiggly': 1, 'frames': [0, 96], 'splines': [" PANEL_SPLINES
                                  "], 'rigs': [{'type': 'tail', 'name': 'tail', 'joints': 3, 'rest': [4, -2, 1], "

@@ -1,8 +1,8 @@
 /// The table of commands: what it says is true, F1 and the palette show all of it, docs/keys.md names the same keys, each has one on every
 /// keyboard, and nothing needs a mouse.
 #include "editor/state.h"
+#include "hands.h"
 #include "ui/theme.h"
-#include "walks.h"
 
 static const char scene[] =
     "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'knots': [{'frame': 0, 'value': 0, 'slope': "
@@ -13,8 +13,8 @@ static const char scene[] =
 
 static void open_help(struct session *s, float width, float height)
 {
-    panel_open(s, quoted(scene), width, height);
-    walk(s, "key F1; is lookup keys");
+    panel_open(s, scene, width, height);
+    hands(s, "key F1; is lookup keys");
 }
 
 static bool is_seen(const struct session *s, const char *text)
@@ -54,7 +54,7 @@ SESSION_TEST(test_small_windows_scroll, open_help(s, 500, 360))
 {
     for (int end = 0; end < 3; end++) {
         if (end == 1) session_wheel(s, -1000);
-        if (end == 2) walk(s, "key PageUp*40");
+        if (end == 2) hands(s, "key 40*PageUp");
         assert_int_equal(is_seen(s, "Drag the body"), end != 1);
         assert_int_equal(is_seen(s, "Ctrl+9"), end == 1);
     }
@@ -64,26 +64,26 @@ SESSION_TEST(test_small_windows_scroll, open_help(s, 500, 360))
 SESSION_TEST(test_a_drag_scrolls_the_lists, open_help(s, 390, 792))
 {
     const float *offset = &lookup_of(s->editor)->list.offset;
-    walk(s, "at 200 300");
+    hands(s, "at 200 300");
     session_press(s, BUTTON_LEFT, 1);
-    walk(s, "by 0 -160 8; release");
+    hands(s, "drag 0 -160 8; release");
     assert_near(*offset, 160, 1);
-    walk(s, "key F3; at 200 300");
+    hands(s, "key F3; at 200 300");
     session_press(s, BUTTON_LEFT, 1);
-    walk(s, "by 0 -160 8");
+    hands(s, "drag 0 -160 8");
     assert_near(*offset, 10, 0);
-    walk(s, "by 0 80 8; release; is lookup palette");
+    hands(s, "drag 0 80 8; release; is lookup palette");
     assert_near(*offset, 5, 0);
     session_move(s, 5, 5);
     session_click_here(s, 1);
-    walk(s, "is lookup none");
+    hands(s, "is lookup none");
 }
 
 /// Esc, Enter, F1 and a click close the help. What is typed searches it.
-WALK(test_the_help_is_searched_and_closed, scene, 1280, 720,
+WALK(test_the_help_is_searched_and_closed, panel_open(s, scene, 1280, 720),
      "key F1; is lookup keys; key Escape; is lookup none; key F1; is lookup keys; key Enter; is lookup none;"
-     "key F1; is lookup keys; key F1; is lookup none; key F1; is lookup keys; on stage(0.4,0.9); is lookup none;"
-     "key F1; type V onion; hides Onion skin; key Backspace*7; type onion; reads Onion skin; is look wiggly")
+     "key F1; is lookup keys; key F1; is lookup none; key F1; is lookup keys; click stage(0.4,0.9); is lookup none;"
+     "key F1; type V onion; hides Onion skin; key 7*Backspace; type onion; shows Onion skin; is look wiggly")
 
 /// F1 begins with ten rows about what the pointer is over.
 TEST(test_ten_keys_about_what_is_under_the_pointer)
@@ -99,8 +99,8 @@ TEST(test_ten_keys_about_what_is_under_the_pointer)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct session s;
         int count = 0;
-        panel_open(&s, quoted(scene), 1280, 720);
-        walk(&s, "over %s; key F1; reads %s", rows[i].target, rows[i].title);
+        panel_open(&s, scene, 1280, 720);
+        hands(&s, "hover %s; key F1; shows %s", rows[i].target, rows[i].title);
         assert_true(is_seen(&s, rows[i].row));
         session_close(&s);
         for (int c = 0; c < command_count; c++) count += (commands[c].at & rows[i].at) != 0;
@@ -125,37 +125,37 @@ TEST(test_the_palette_runs_what_is_found)
                 {"knot insert play", 'I', 0}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct session s;
-        session_open(&s, quoted(scene));
-        walk(&s, "key F3; is lookup palette; type %s; reads %s; key Enter; is lookup none", rows[i].typed,
-             keys_command(rows[i].key, rows[i].mods)->name);
+        session_open(&s, scene);
+        hands(&s, "key F3; is lookup palette; type %s; shows %s; key Enter; is lookup none", rows[i].typed,
+              keys_command(rows[i].key, rows[i].mods)->name);
         session_close(&s);
     }
 }
 
 /// What cannot be done now says why, and Enter leaves the palette open; Esc closes it and changes nothing. It does what the key does,
 /// chooses a feel, and flips switches that have no key.
-SESSION_TEST(test_the_palette_does_what_the_key_does, session_open(s, quoted(scene)))
+SESSION_TEST(test_the_palette_does_what_the_key_does, session_open(s, scene))
 {
     static const char *const feels[] = {"cat 0.8", "whip 1.8", "heavy 0.5", "jelly 3", "antenna 5"};
     const struct core *core = &s->editor->core;
-    walk(s, "key F3; type flat slope; frames; reads Select a knot first.; key Enter; is lookup palette;"
-            "key Delete Escape; is lookup none; unchanged");
+    hands(s, "key F3; type flat slope; wait; shows Select a knot first.; key Enter; is lookup palette;"
+             "key Delete Escape; is lookup none; kept");
     for (int i = 0; i < 5; i++) {
         const int length = (int)strcspn(feels[i], " ");
-        walk(s, "key F3; type feel %.*s; key Enter; is splines.0.frequency %s", length, feels[i],
-             feels[i] + length + 1);
+        hands(s, "key F3; type feel %.*s; key Enter; is splines.0.frequency %s", length, feels[i],
+              feels[i] + length + 1);
     }
     for (int on = 1; on >= 0; on--) {
-        walk(s,
-             "key F3; type solo; key Enter F3; type hide the spl; key Enter F3; type record the next; key Enter;"
-             "is record %d",
-             on);
+        hands(s,
+              "key F3; type solo; key Enter F3; type hide the spl; key Enter F3; type record the next; key Enter;"
+              "is record %d",
+              on);
         assert_int_equal(selection_has(&core->view.solo, s->document->splines[0]->id), on);
         assert_int_equal(selection_has(&core->view.hidden, s->document->splines[0]->id), on);
     }
-    walk(s, "key F3; type select all knots of; key Enter; is selected 2;"
-            "key F3; type delete sel; key Enter; is splines.0.knots.# 0;"
-            "key F3; type add a spl; key Enter; is splines.# 2");
+    hands(s, "key F3; type select all knots of; key Enter; is selected 2;"
+             "key F3; type delete sel; key Enter; is splines.0.knots.# 0;"
+             "key F3; type add a spl; key Enter; is splines.# 2");
 }
 
 /// What needs no key is there too: buttons and sections of the inspector.
@@ -167,24 +167,24 @@ TEST(test_the_palette_reaches_the_inspector)
                 {"frame rate", "section.scene"}, {"copy the r", "section.tail"}, {"channels", "section.tail"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct session s;
-        panel_open(&s, quoted(scene), 1280, 1400);
-        walk(&s, "more off; lacks %s; key F3; type %s; key Enter; shows %s", rows[i].shows, rows[i].typed,
-             rows[i].shows);
+        panel_open(&s, scene, 1280, 1400);
+        hands(&s, "more off; lacks %s; key F3; type %s; key Enter; finds %s", rows[i].shows, rows[i].typed,
+              rows[i].shows);
         session_close(&s);
     }
 }
 
 /// Arrows, pages and the wheel go through all rows, round the ends; a click runs one.
-SESSION_TEST(test_the_palette_is_walked, session_open(s, quoted(scene)))
+SESSION_TEST(test_the_palette_is_walked, session_open(s, scene))
 {
-    walk(s, "key F3 Up");
+    hands(s, "key F3 Up");
     const int last = lookup_of(s->editor)->choice;
     assert_true(last > 80);
-    walk(s, "key Down");
+    hands(s, "key Down");
     assert_int_equal(lookup_of(s->editor)->choice, 0);
-    walk(s, "key PageDown*20");
+    hands(s, "key 20*PageDown");
     assert_int_equal(lookup_of(s->editor)->choice, last);
-    walk(s, "wheel 1000; type onion; tap Onion skin; is onion 1");
+    hands(s, "wheel 1000; type onion; tap Onion skin; is onion 1");
 }
 
 // --- the table ----------------------------------------------------------------------------------------------------------
@@ -195,7 +195,7 @@ TEST(test_every_command_runs)
     for (int c = 0; c < 2 * command_count; c++) {
         const struct command *command = &commands[c / 2];
         struct session s;
-        session_open(&s, quoted(c % 2 ? scene : "{'frames': [0, 96]}"));
+        session_open(&s, c % 2 ? scene : "{'frames': [0, 96]}");
         if (c % 2) session_key(&s, 'A', MOD_CTRL);
         const bool can = command_runs(command) && !missing(s.editor, command->needs);
         if (can) command_run(s.editor, command);
@@ -235,7 +235,7 @@ TEST(test_every_letter_to_hold_is_in_the_help)
 }
 
 /// Whether a command can be done now follows the scene and the selection.
-SESSION_TEST(test_what_can_be_done_now, session_open(s, quoted(scene)))
+SESSION_TEST(test_what_can_be_done_now, session_open(s, scene))
 {
     static const struct {
         const char *first; ///< what is done before
@@ -260,7 +260,7 @@ SESSION_TEST(test_what_can_be_done_now, session_open(s, quoted(scene)))
         {"key Shift+Delete K", 'H', 0, "Add a tail, a chain or a soft character first."},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        walk(s, "%s", rows[i].first);
+        hands(s, "%s", rows[i].first);
         const char *lacks = missing(s->editor, keys_command(rows[i].key, rows[i].mods)->needs);
         if (strcmp(lacks ? lacks : "", rows[i].lacks ? rows[i].lacks : "") != 0)
             fail_msg("row %zu, key %s: %s", i, key_name(rows[i].key), lacks);
@@ -361,7 +361,7 @@ static bool try_chord(int key, unsigned mods)
 {
     static struct session s;
     static bool is_open;
-    if (!is_open) session_open(&s, quoted(scene));
+    if (!is_open) session_open(&s, scene);
     const struct event press = {.kind = EVENT_KEY, .key = key, .mods = mods, .action = ACTION_PRESS};
     const struct event text = {.kind = EVENT_TEXT, .codepoint = (uint32_t)key};
     bool bound = keys_event(s.editor, &press) || (mods == 0 && keys_event(s.editor, &text));
@@ -496,30 +496,30 @@ static const char three_knots[] =
     "'spline': 'sway'}]}";
 
 /// AZERTY has - on the key of the 6, and needs Shift for 1, 5 and the point.
-SESSION_TEST(test_a_factor_is_what_is_typed, session_open(s, quoted(three_knots)))
+SESSION_TEST(test_a_factor_is_what_is_typed, session_open(s, three_knots))
 {
     static const int struck[][2] = {{'6', '-'}, {'1', '1'}, {';', '.'}, {'7', '7'}, {KEY_BACKSPACE, 0}, {'5', '5'}};
-    walk(s, "key Ctrl+A");
+    hands(s, "key Ctrl+A");
     session_type(s, "sy");
     for (int i = 0; i < 6; i++) {
         if (!struck[i][1]) session_key(s, struck[i][0], 0);
         if (struck[i][1]) session_strike(s, struck[i][0], i == 0 ? 0 : MOD_SHIFT, (uint32_t)struck[i][1]);
     }
-    walk(s, "key Enter; is splines.0.knots.0.value 1.25±1e-9; is splines.0.knots.1.value -0.25±1e-9");
+    hands(s, "key Enter; is splines.0.knots.0.value 1.25 ~1e-9; is splines.0.knots.1.value -0.25 ~1e-9");
 }
 
 /// AltGr, AZERTY and QWERTZ. A part is played without brackets, too. A key kept down is one press where it should be.
-SESSION_TEST(test_punctuation_is_what_is_typed, session_open(s, quoted(three_knots)))
+SESSION_TEST(test_punctuation_is_what_is_typed, session_open(s, three_knots))
 {
     session_strike(s, '6', 0, '-'); // AZERTY
-    walk(s, "is speed 0.5");
+    hands(s, "is speed 0.5");
     session_strike(s, '0', MOD_SHIFT, '='); // QWERTZ
-    walk(s, "is speed 1");
+    hands(s, "is speed 1");
     session_strike(s, '8', 0, '[');         // with AltGr
     session_strike(s, ';', MOD_SHIFT, '.'); // AZERTY
-    walk(s, "is selected 1");
+    hands(s, "is selected 1");
     session_strike(s, '<', MOD_SHIFT, '>');
-    walk(s, "is selected 2; seek 20; key Ctrl+Home; seek 50; key Ctrl+End");
+    hands(s, "is selected 2; seek 20; key Ctrl+Home; seek 50; key Ctrl+End");
     assert_true(plays_part(s->editor));
     assert_near(playback_of(s->editor)->range[0], 20, 0);
     assert_near(playback_of(s->editor)->range[1], 50, 0);
@@ -529,41 +529,41 @@ SESSION_TEST(test_punctuation_is_what_is_typed, session_open(s, quoted(three_kno
         session_frame(s);
         session_hold(s, '6', ACTION_REPEAT);
     }
-    walk(s, "is speed 0.5");
+    hands(s, "is speed 0.5");
 }
 
 TEST(test_a_key_kept_down_goes_on_through_the_splines)
 {
     for (int down = 0; down < 2; down++) {
         struct session s;
-        session_open(&s, quoted("{'frames': [0, 96], 'splines': [{'name': 'a', 'knots': []}, {'name': 'b', 'knots': "
-                                "[]}, {'name': 'c', 'knots': []}]}"));
+        session_open(&s, "{'frames': [0, 96], 'splines': [{'name': 'a', 'knots': []}, {'name': 'b', 'knots': "
+                         "[]}, {'name': 'c', 'knots': []}]}");
         for (int i = 1; i <= 3; i++) {
             session_hold(&s, down ? KEY_PAGE_DOWN : KEY_PAGE_UP, i > 1 ? ACTION_REPEAT : ACTION_PRESS);
             session_frame(&s);
-            walk(&s, "is active %d", down ? i % 3 : 3 - i);
+            hands(&s, "is active %d", down ? i % 3 : 3 - i);
         }
         session_close(&s);
     }
 }
 
-SESSION_TEST(test_a_key_that_opens_something_types_nothing, session_open(s, quoted(three_knots)))
+SESSION_TEST(test_a_key_that_opens_something_types_nothing, session_open(s, three_knots))
 {
     session_type(s, "a"); // the menu of what can be added
     assert_int_equal(inspector_of(s->editor)->popup.filter.typed[0], '\0');
     session_type(s, "tai");
-    walk(s, "key Enter; is rigs.# 2; is rigs.1.type tail");
+    hands(s, "key Enter; is rigs.# 2; is rigs.1.type tail");
 }
 
 // --- nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too ------------------------
 
 /// Neighbours by > and <; there is nothing before the first.
-SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, quoted(three_knots)))
+SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, three_knots))
 {
     static const struct {
         const char *typed, *selected; ///< a letter a knot
     } rows[] = {{">", "-x-"}, {"<", "xx-"}, {">", "xxx"}, {"<<<", "xxx"}};
-    walk(s, "key Shift+Left"); // to the first frame
+    hands(s, "key Shift+Left"); // to the first frame
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         session_type(s, rows[i].typed);
         for (int k = 0; k < 3; k++) {
@@ -573,34 +573,38 @@ SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, quoted(thre
     }
 }
 
-SESSION_TEST(test_curves_camera_and_panels, session_open(s, quoted(three_knots)))
+SESSION_TEST(test_curves_camera_and_panels, session_open(s, three_knots))
 {
     const struct layout *layout = layout_of(s->editor), first = *layout;
     const struct camera before = *camera_of(s->editor);
-    walk(s, "keep plot.left; keep plot.right; keep plot.bottom; keep plot.top;"
-            "key Ctrl+Right Ctrl+Up; is plot.left >kept; is plot.bottom >kept;"
-            "key Ctrl+Left Ctrl+Down; is plot.left kept±1e-3; is plot.top kept±1e-3");
+    hands(s, "keep plot.left; keep plot.right; keep plot.bottom; keep plot.top;"
+             "key Ctrl+Right Ctrl+Up; is plot.left > kept; is plot.bottom > kept;"
+             "key Ctrl+Left Ctrl+Down; is plot.left kept ~1e-3; is plot.top kept ~1e-3");
     const double width = number(s, "plot.right") - number(s, "plot.left");
-    walk(s, "key Ctrl+=");
+    hands(s, "key Ctrl+=");
     assert_near(number(s, "plot.right") - number(s, "plot.left"), 0.8 * width, 1e-3);
-    walk(s,
-         "key Ctrl+-; is plot.right kept±1e-3;"
-         "keep camera.azimuth; keep camera.elevation; keep camera.distance;"
-         "key Ctrl+Shift+Right Ctrl+Shift+Up Ctrl+Shift+PageUp; is camera.azimuth >kept; is camera.elevation >kept;"
-         "is camera.distance <kept; key Shift+Home");
+    hands(
+        s,
+        "key Ctrl+-; is plot.right kept ~1e-3;"
+        "keep camera.azimuth; keep camera.elevation; keep camera.distance;"
+        "key Ctrl+Shift+Right Ctrl+Shift+Up Ctrl+Shift+PageUp; is camera.azimuth > kept; is camera.elevation > kept;"
+        "is camera.distance < kept; key Shift+Home");
     assert_memory_equal(&before, camera_of(s->editor), sizeof before);
-    walk(s, "key F6 Shift+F6");
+    hands(s, "key F6 Shift+F6");
     assert_true(layout->stage_share > first.stage_share && layout->inspector_width > first.inspector_width);
-    walk(s, "key F6 Shift+F6");
+    hands(s, "key F6 Shift+F6");
     assert_true(layout->stage_share < first.stage_share);
     assert_true(layout->inspector_width < 480 && layout->inspector_width > first.inspector_width);
 }
 
 /// A jump within two frames.
 WALK(test_a_warning_is_done_away_with,
-     "{'frames': [0, 72], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.05, 'bandwidth': 0.05, 'knots': "
-     "[{'frame': 10, 'value': 0}, {'frame': 12, 'value': 1}, {'frame': 24, 'value': 1}]}]}",
-     1280, 720, "is warnings 1; key W; frames; is warnings 0; key Ctrl+Z; is warnings 1")
+     panel_open(s,
+                "{'frames': [0, 72], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.05, 'bandwidth': "
+                "0.05, 'knots': "
+                "[{'frame': 10, 'value': 0}, {'frame': 12, 'value': 1}, {'frame': 24, 'value': 1}]}]}",
+                1280, 720),
+     "is warnings 1; key W; wait; is warnings 0; key Ctrl+Z; is warnings 1")
 
 /// Whether a line of the accent's colour, as the focus is drawn, lies around a widget or the part of it that is set.
 static bool is_ringed(const struct session *s, struct rect r)
@@ -634,11 +638,11 @@ static void assert_goes_round(struct session *s)
     panel_unfold(s);
     const int stops = ui->stop_count;
     assert_true(stops > 60 && stops < UI_MAX_FOCUS);
-    walk(s, "key Tab");
+    hands(s, "key Tab");
     const uint32_t first = ui->focus;
     do {
         assert_ringed(s, ui);
-        walk(s, "key Tab");
+        hands(s, "key Tab");
     } while (++count < UI_MAX_FOCUS && ui->focus != first);
     assert_int_equal(count, stops);
 }
@@ -654,8 +658,8 @@ TEST(test_tab_goes_round)
     for (int i = 0; i < 3; i++) {
         struct session s;
         if (i == 0) session_open_file(&s, "assets/scenes/tail.json");
-        if (i > 0) session_open(&s, quoted(i == 1 ? both : three_knots));
-        if (i == 2) walk(&s, "on knot(sway,1)");
+        if (i > 0) session_open(&s, i == 1 ? both : three_knots);
+        if (i == 2) hands(&s, "click knot(sway,1)");
         assert_goes_round(&s);
         session_close(&s);
     }

@@ -1,7 +1,7 @@
 /// The inspector: what each widget does to the document and what it says, by the events of mouse and keyboard.
 #include "folder.h"
+#include "hands.h"
 #include "puppet.h"
-#include "walks.h"
 
 /// A keyed spline, a cubic, and one whose frequency follows the cubic; a tail that two of them bend.
 static const char scene[] =
@@ -16,85 +16,85 @@ static const char scene[] =
 // --- numbers ------------------------------------------------------------------------------------------------------------
 
 /// A drag is one step; Esc takes it back, and closing the window in the middle of one leaves no half-open step behind.
-WALK(test_a_drag_is_one_step, scene, 1280, 720,
+WALK(test_a_drag_is_one_step, panel_open(s, scene, 1280, 720),
      "slide frequency 2.5; is splines.0.frequency 2.5; is sliding 1;"
-     "release; is open 0; is undo Set frequency; step;"
-     "key Ctrl+Z; unchanged; is undo nothing;"
-     "slide damping 1; is splines.0.damping 1; key Escape; unchanged; is open 0; is undo nothing; release;"
+     "release; is open 0; label Set frequency; once;"
+     "key Ctrl+Z; kept; label;"
+     "slide damping 1; is splines.0.damping 1; key Escape; kept; is open 0; label; release;"
      "slide frequency 3; close; is open 0; is asked unsaved")
 
-WALK(test_typed_nonsense_is_said_and_refused, scene, 1280, 720,
-     "enter damping lots; errs damping: expected a number; key A Escape;"
-     "enter damping 1.5; says damping: expected 0 … 1;" // more than complex mode takes
-     "unchanged; is undo nothing")
+WALK(test_typed_nonsense_is_said_and_refused, panel_open(s, scene, 1280, 720),
+     "enter damping lots; error damping: expected a number; key A Escape;"
+     "enter damping 1.5; said damping: expected 0 … 1;" // more than complex mode takes
+     "kept; label")
 
-WALK(test_typing_keeps_keys_from_the_editor, scene, 1280, 720,
-     "twice frequency; is typing 1;"
+WALK(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 720),
+     "again frequency; is typing 1;"
      "key Ctrl+A; type v m.; is selected 0;" // all of what is typed, not all knots
      "key End Ctrl+A; type x; is field x;"
-     "key Delete Space; is look wiggly; is playing 0; unchanged;"
+     "key Delete Space; is look wiggly; is playing 0; kept;"
      "key F1; is lookup keys; key Escape Escape; is typing 0;"
      "key V; is look stiff")
 
 /// A run of nudges is one step. Without the focus the arrows are the playhead's. Delete is the default's.
-WALK(test_keys_belong_to_the_focus, scene, 1280, 720,
+WALK(test_keys_belong_to_the_focus, panel_open(s, scene, 1280, 720),
      "tab frequency; key Right Right; is splines.0.frequency 1.1; is position 0;"
-     "key Ctrl+Z; unchanged;"
-     "key Right*9; is splines.0.frequency >1.3; key Delete; is splines.0.frequency 1; is splines.0.knots.# 3;"
-     "key Ctrl+Z; is splines.0.frequency >1.3; key Ctrl+Z; unchanged;"
-     "key Escape Right; is position 1; unchanged")
+     "key Ctrl+Z; kept;"
+     "key 9*Right; is splines.0.frequency > 1.3; key Delete; is splines.0.frequency 1; is splines.0.knots.# 3;"
+     "key Ctrl+Z; is splines.0.frequency > 1.3; key Ctrl+Z; kept;"
+     "key Escape Right; is position 1; kept")
 
-WALK(test_only_what_counts_is_shown, scene, 1280, 1700,
-     "lacks bandwidth; click section.advanced; shows bandwidth;"
+WALK(test_only_what_counts_is_shown, panel_open(s, scene, 1280, 1700),
+     "lacks bandwidth; click section.advanced; finds bandwidth;"
      "click mode.real; is splines.0.mode real; lacks bandwidth;"
      "click mode.cubic; is splines.0.mode cubic; lacks frequency;"
-     "click spline.lift; is active 2; lacks frequency; shows damping;" // a track drives it
+     "click spline.lift; is active 2; lacks frequency; finds damping;" // a track drives it
      "click start.loop; is splines.2.start loop;"
      "click look.cubic; is look cubic;"
-     "click section.spline; point position.y; is hint Position of the body along y") // outlives the panel
+     "click section.spline; hover position.y; is hint Position of the body along y") // outlives the panel
 
 /// The pointer's shape says that a number is dragged, and where a text is typed.
-WALK(test_the_pointer_says_what_it_does, scene, 1280, 720,
+WALK(test_the_pointer_says_what_it_does, panel_open(s, scene, 1280, 720),
      "is cursor arrow; slide damping 0.3; is cursor horizontal; release; is cursor horizontal;"
-     "twice damping; is cursor text; key Escape;"
+     "again damping; is cursor text; key Escape;"
      "click section.knot; is cursor arrow")
 
 // --- knots --------------------------------------------------------------------------------------------------------------
 
-WALK(test_a_knot_is_edited_in_place, scene, 1280, 1600,
-     "on knot(sway,1); enter value 0.75; is splines.0.knots.1.value 0.75;"
-     "enter value 8; frames 90; is plot.top >8;"                                    // above all in sight
+WALK(test_a_knot_is_edited_in_place, panel_open(s, scene, 1280, 1600),
+     "click knot(sway,1); enter value 0.75; is splines.0.knots.1.value 0.75;"
+     "enter value 8; wait 90; is plot.top > 8;"                                     // above all in sight
      "enter frame 70; is splines.0.knots.2.frame 70; is splines.0.knots.2.value 8;" // past its neighbour
-     "enter frame 60; is splines.0.knots.2.frame 70; errs ;"                        // where another sits
-     "pull frame 600 0 1; is splines.0.knots.2.frame 96;"                           // as far as it goes
-     "click has_slope; is splines.0.knots.2.slope <0; is splines.0.knots.1.slope nothing;"
+     "enter frame 60; is splines.0.knots.2.frame 70; error ;"                       // where another sits
+     "carry frame 600 0 1; is splines.0.knots.2.frame 96;"                          // as far as it goes
+     "click has_slope; is splines.0.knots.2.slope < 0; is splines.0.knots.1.slope nothing;"
      "enter stiffness 50; is splines.0.knots.2.stiffness 50")
 
-WALK(test_a_dragged_frame_passes_through_a_neighbour, scene, 1280, 720,
-     "on knot(sway,1); press frame; by 30 0 30; is splines.0.knots.2.frame 66; is splines.0.knots.1.frame 60;"
-     "release; step; key Ctrl+Z; is splines.0.knots.1.frame 36")
+WALK(test_a_dragged_frame_passes_through_a_neighbour, panel_open(s, scene, 1280, 720),
+     "click knot(sway,1); press frame; drag 30 0 30; is splines.0.knots.2.frame 66; is splines.0.knots.1.frame 60;"
+     "release; once; key Ctrl+Z; is splines.0.knots.1.frame 36")
 
 /// Nothing is selected: the section says what knots there are and works without pointing at one; what is below stays where it is.
-WALK(test_the_knot_section_without_a_knot, scene, 1280, 1400,
-     "reads 3, frames 0 … 60; click spline.lift; reads 1, frame 10; click spline.sway;"
+WALK(test_the_knot_section_without_a_knot, panel_open(s, scene, 1280, 1400),
+     "shows 3, frames 0 … 60; click spline.lift; shows 1, frame 10; click spline.sway;"
      "keep y:section.splines; seek 20; click knot.insert; is splines.0.knots.# 4; is splines.0.knots.1.frame 20;"
      "is y:section.splines kept; lacks knot.insert;"
      "key Escape; click knot.next; is position 36;"
-     "key Escape; click knot.all; shows slope.flat")
+     "key Escape; click knot.all; finds slope.flat")
 
 /// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
-WALK(test_several_knots, scene, 1280, 1600,
+WALK(test_several_knots, panel_open(s, scene, 1280, 1600),
      "key Ctrl+A; lacks stiffness;" // no slopes yet
      "enter value 0.25; is splines.0.knots.0.value 0.25; is splines.0.knots.1.value 0.25;"
-     "is splines.0.knots.2.value 0.25; key Ctrl+Z; unchanged;"
-     "pull value 50 0 5; is splines.0.knots.0.value 0.5±1e-12; is splines.0.knots.2.value 0±1e-12;"
-     "key Ctrl+Z; is undo nothing;"
+     "is splines.0.knots.2.value 0.25; key Ctrl+Z; kept;"
+     "carry value 50 0 5; is splines.0.knots.0.value 0.5 ~1e-12; is splines.0.knots.2.value 0 ~1e-12;"
+     "key Ctrl+Z; label;"
      "enter frame 10; is splines.0.knots.0.frame 10; is splines.0.knots.2.frame 70;"
-     "enter frame 40; is splines.0.knots.0.frame 10; says frame 100 is outside 0 to 96;"
-     "pull frame 60 0 60; is splines.0.knots.2.frame 96; is splines.0.knots.1.frame 72;" // as far as it goes
+     "enter frame 40; is splines.0.knots.0.frame 10; said frame 100 is outside 0 to 96;"
+     "carry frame 60 0 60; is splines.0.knots.2.frame 96; is splines.0.knots.1.frame 72;" // as far as it goes
      "key T; enter stiffness 50; is splines.0.knots.0.stiffness 50; is splines.0.knots.1.stiffness 50;"
      "is splines.0.knots.2.stiffness 50;"
-     "enter slope steep; says slope: expected a number")
+     "enter slope steep; said slope: expected a number")
 
 // --- what is said of a spline -------------------------------------------------------------------------------------------
 
@@ -107,17 +107,17 @@ TEST(test_the_solver_is_said)
         struct session s;
         snprintf(of_length, sizeof of_length,
                  "{'frames': [0, %d], 'splines': [{'name': 's', 'frequency': 1, 'knots': []}]}", 4095 + n);
-        panel_open(&s, quoted(of_length), 1280, 2000);
-        walk(&s, "click section.scene; mentions %s", solvers[n]);
+        panel_open(&s, of_length, 1280, 2000);
+        hands(&s, "click section.scene; mentions %s", solvers[n]);
         session_close(&s);
     }
 }
 
 SESSION_TEST(test_says_what_the_solver_and_the_poles_mean,
              panel_open(s,
-                        quoted("{'frames': [0, 96], 'splines': [{'name': 'a', 'mode': 'real', 'frequency': 1, "
-                               "'knots': [{'frame': 0, 'value': 1}, {'frame': 12, 'value': -1}, {'frame': 24, "
-                               "'value': 1}]}]}"),
+                        "{'frames': [0, 96], 'splines': [{'name': 'a', 'mode': 'real', 'frequency': 1, "
+                        "'knots': [{'frame': 0, 'value': 1}, {'frame': 12, 'value': -1}, {'frame': 24, "
+                        "'value': 1}]}]}",
                         1280, 720))
 {
     struct drawlist *list = drawn_by(s->editor);
@@ -125,106 +125,106 @@ SESSION_TEST(test_says_what_the_solver_and_the_poles_mean,
     s->work.evaluation.status[0] = WIGGLY_CALMED;
     drawlist_clear(list, layout_of(s->editor)->window);
     inspector_show(s->editor->inspector, false);
-    walk(s, "mentions %.23s", wiggly_status_text(WIGGLY_CALMED));
+    hands(s, "mentions %.23s", wiggly_status_text(WIGGLY_CALMED));
     s->work.evaluation.status[0] = WIGGLY_OK;
-    walk(s, "frames; mentions Rings forever; ignores %.23s;", wiggly_status_text(WIGGLY_CALMED));
-    walk(s, "slide damping 0.5; release; mentions Settles to 5 %% 21 frames after the last knot.;"
-            "slide damping 2; release; mentions Settles to 5 %% 45 frames after;"
-            "enter frequency 20; mentions half the sample rate");
+    hands(s, "wait; mentions Rings forever; ignores %.23s;", wiggly_status_text(WIGGLY_CALMED));
+    hands(s, "slide damping 0.5; release; mentions Settles to 5 %% 21 frames after the last knot.;"
+             "slide damping 2; release; mentions Settles to 5 %% 45 frames after;"
+             "enter frequency 20; mentions half the sample rate");
 }
 
 // --- the list of splines ------------------------------------------------------------------------------------------------
 
-WALK(test_a_spline_is_added_at_the_playhead, scene, 1280, 900,
-     "on ruler(24); click splines.add; is active.name spline; is splines.3.knots.0.frame 24;"
-     "is splines.3.frequency 1; step;"
-     "key Ctrl+Z; is active >-1; is active <3")
+WALK(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 900),
+     "click ruler(24); click splines.add; is active.name spline; is splines.3.knots.0.frame 24;"
+     "is splines.3.frequency 1; once;"
+     "key Ctrl+Z; is active > -1; is active < 3")
 
 /// What is being edited stays what it is when the list around it changes, and when that is undone.
-WALK(test_the_active_spline_is_followed, scene, 1280, 900,
-     "click spline.pace; click splines.down; is active.name pace; is active 2; step; is active.name pace;"
+WALK(test_the_active_spline_is_followed, panel_open(s, scene, 1280, 900),
+     "click spline.pace; click splines.down; is active.name pace; is active 2; once; is active.name pace;"
      "key Ctrl+Z; is active.name pace;"
      "click splines.copy; is active.name pace 2;"
      "click splines.delete; is splines.# 3; is asked none") // nothing follows it: no question
 
 /// Deleting what others follow asks; then they keep the value of that frame, and the tail lets go of it.
-WALK(test_deleting_a_followed_spline_asks, scene, 1280, 900,
-     "on ruler(90); click spline.pace; click splines.delete; is asked ask; key Escape; unchanged;"
-     "click splines.delete; key D; is splines.# 2; is splines.1.frequency 2±1e-9; is rigs.0.channels.1.spline lift;"
-     "step; click spline.lift; mark;"
-     "click splines.delete; key Enter; is rigs.0.channels.# 1; step")
+WALK(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 900),
+     "click ruler(90); click spline.pace; click splines.delete; is asked ask; key Escape; kept;"
+     "click splines.delete; key D; is splines.# 2; is splines.1.frequency 2 ~1e-9; is rigs.0.channels.1.spline lift;"
+     "once; click spline.lift; keep;"
+     "click splines.delete; key Enter; is rigs.0.channels.# 1; once")
 
 /// The only spline may go as well; what is left still draws, and can be added to.
-WALK(test_an_empty_list, scene, 960, 900,
+WALK(test_an_empty_list, panel_open(s, scene, 960, 900),
      "click splines.delete; is asked ask; key D; click splines.delete; is asked ask; key D;"
      "click splines.delete; is asked ask; key D; is splines.# 0; is active -1;"
      "click splines.delete; click splines.copy; is splines.# 0;"
      "click splines.add; is active.name spline")
 
-WALK(test_renaming, scene, 1280, 900,
-     "twice spline.sway; type swing; key Enter; is splines.0.name swing; step;"
+WALK(test_renaming, panel_open(s, scene, 1280, 900),
+     "again spline.sway; type swing; key Enter; is splines.0.name swing; once;"
      "click section.splines; key F2; type pace; key Enter;" // F2 opens the list again
-     "is splines.0.name swing; says a spline called pace already exists;"
+     "is splines.0.name swing; said a spline called pace already exists;"
      "key F2 End; type s; key Enter; is splines.0.name swings;" // the name that is there is what is edited
-     "key Ctrl+Z; key F2 Delete Enter; is splines.0.name swing; says a spline needs a name;" // all is selected
+     "key Ctrl+Z; key F2 Delete Enter; is splines.0.name swing; said a spline needs a name;" // all is selected
      "is splines.0.knots.# 3")
 
-SESSION_TEST(test_rows_are_dragged_to_their_place, panel_open(s, quoted(scene), 1280, 900))
+SESSION_TEST(test_rows_are_dragged_to_their_place, panel_open(s, scene, 1280, 900))
 {
-    walk(s, "press spline.sway; by 0 %d; unchanged; release; is splines.2.name sway; is active.name sway; step",
-         2 * (int)UI_ROW);
+    hands(s, "press spline.sway; drag 0 %d; kept; release; is splines.2.name sway; is active.name sway; once",
+          2 * (int)UI_ROW);
 }
 
-WALK(test_colours, scene, 1280, 900,
-     "click color.pace; click color.3; is splines.1.color #1F9E7A; is popup 0; step;"
+WALK(test_colours, panel_open(s, scene, 1280, 900),
+     "click color.pace; click color.3; is splines.1.color #1F9E7A; is popup 0; once;"
      "click color.pace; click color.type; type #12345; key Enter; is splines.1.color #1F9E7A;"
-     "says colour: expected something like #FFB000, got “#12345”;"
+     "said colour: expected something like #FFB000, got “#12345”;"
      "click color.type; type #123456; key Enter; is splines.1.color #123456;"
-     "click color.none; unchanged")
+     "click color.none; kept")
 
 /// The order of the list does not matter to what is hidden, and only the order is an edit.
-WALK(test_hidden_and_solo_curves, scene, 1280, 900,
+WALK(test_hidden_and_solo_curves, panel_open(s, scene, 1280, 900),
      "is curves.others 2; click eye.pace; is curves.others 1; is history.saved 1;"
      "click spline.pace; click splines.up; is curve:0 0;"
      "click solo.lift; is curve:2 1; is curve:1 0;"
      "click solo.lift; click eye.pace; is curves.others 2; is history.saved 0")
 
 /// Attached from the list, which has no spline that would make a cycle; detached, it keeps the value at the playhead.
-WALK(test_a_track_is_attached_and_detached, scene, 1280, 900,
-     "on ruler(90); click follow.damping; shows item.pace; lacks item.sway;"
-     "click item.pace; is splines.0.damping.spline pace; step; lacks damping;"
+WALK(test_a_track_is_attached_and_detached, panel_open(s, scene, 1280, 900),
+     "click ruler(90); click follow.damping; finds item.pace; lacks item.sway;"
+     "click item.pace; is splines.0.damping.spline pace; once; lacks damping;"
      "click spline.pace; click follow.equilibrium; is popup 0;" // both others follow it
-     "says no other spline for pace to follow;"
-     "click spline.sway; frames; click follow.damping; is splines.0.damping 1") // 2, as far as damping goes
+     "said no other spline for pace to follow;"
+     "click spline.sway; wait; click follow.damping; is splines.0.damping 1") // 2, as far as damping goes
 
 // --- the scene ----------------------------------------------------------------------------------------------------------
 
-WALK(test_frames_per_second_ask, scene, 1280, 2000,
+WALK(test_frames_per_second_ask, panel_open(s, scene, 1280, 2000),
      "click section.scene; enter scene.fps 48; is asked ask; is fps 24;"
-     "key S; is fps 48; is splines.0.knots.1.frame 72; is frames.1 192; step;"
+     "key S; is fps 48; is splines.0.knots.1.frame 72; is frames.1 192; once;"
      "key Ctrl+Z; enter scene.fps 48; key F; is fps 48; is splines.0.knots.1.frame 36;"
-     "enter scene.fps 0; says rate: expected; key Escape")
+     "enter scene.fps 0; said rate: expected; key Escape")
 
 /// The playhead stays on its frame, or comes inside.
-WALK(test_a_range_asks_for_its_knots, scene, 1280, 2000,
-     "click section.scene; on ruler(80); enter scene.last 50; is asked ask;"
-     "key T; is splines.0.knots.# 2; is position 50; step;"
+WALK(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 2000),
+     "click section.scene; click ruler(80); enter scene.last 50; is asked ask;"
+     "key T; is splines.0.knots.# 2; is position 50; once;"
      "key Ctrl+Z; enter scene.last 50; key M; is splines.0.knots.2.frame 50;"
-     "enter scene.last 50.5; says last: expected a whole number, got 50.5;"
-     "enter scene.first 60; says the last frame must not be before the first;"
+     "enter scene.last 50.5; said last: expected a whole number, got 50.5;"
+     "enter scene.first 60; said the last frame must not be before the first;"
      "enter scene.first -10; is position 60;"
-     "enter scene.substeps 4; is frame 50; is substeps 4")
+     "enter scene.substeps 4; is playhead 50; is substeps 4")
 
 /// More frames than the splines' samples allow are refused in the field, and nothing is asked about knots.
-SESSION_TEST(test_a_range_has_an_end, panel_open(s, quoted(scene), 1280, 2000))
+SESSION_TEST(test_a_range_has_an_end, panel_open(s, scene, 1280, 2000))
 {
     const int longest = (SPLINE_MAX_SAMPLES - 1) / 4;
-    walk(s,
-         "click section.scene; enter scene.substeps 4; mark;"
-         "enter scene.last 999999999; is asked none; is said last: expected -1000000000 … %d, got 999999999;"
-         "enter scene.first -999999999; says first: expected %d … 1000000000; unchanged;"
-         "enter scene.last %d; is frames.1 %d",
-         longest, 96 - longest, longest, longest);
+    hands(s,
+          "click section.scene; enter scene.substeps 4; keep;"
+          "enter scene.last 999999999; is asked none; says last: expected -1000000000 … %d, got 999999999;"
+          "enter scene.first -999999999; said first: expected %d … 1000000000; kept;"
+          "enter scene.last %d; is frames.1 %d",
+          longest, 96 - longest, longest, longest);
 }
 
 static unsigned next_random(unsigned *seed) { return (*seed = *seed * 1664525u + 1013904223u) >> 8; }
@@ -257,13 +257,13 @@ TEST(test_random_input_comes_back)
     for (unsigned seed = 1; seed <= (unsigned)quick_or_all(2, 6); seed++) {
         struct session s;
         unsigned random = seed;
-        panel_open(&s, quoted(scene), 1280, 2000);
-        walk(&s, "click section.scene");
+        panel_open(&s, scene, 1280, 2000);
+        hands(&s, "click section.scene");
         for (int i = 0; i < 3000 && s.document->spline_count < 50; i++) random_input(&s, &random);
-        walk(&s, "key Escape*3; release; key Escape; is open 0");
+        hands(&s, "key 3*Escape; release; key Escape; is open 0");
         assert_loads_again(s.document);
         while (history_undo(s.history)) steps++;
-        walk(&s, "unchanged");
+        hands(&s, "kept");
         session_close(&s);
     }
     assert_true(steps >= quick_or_all(10, 60));
@@ -278,7 +278,7 @@ static const char tail[] =
 
 /// A slider that is dragged to an end and far beyond stops there, and the document is one that loads. What curves are there, the show's tests
 /// say for all modes, starts and ends.
-SESSION_TEST(test_sliders_have_ends, panel_open(s, quoted(tail), 1280, 1600))
+SESSION_TEST(test_sliders_have_ends, panel_open(s, tail, 1280, 1600))
 {
     static const struct {
         const char *mode, *name, *member;
@@ -291,24 +291,24 @@ SESSION_TEST(test_sliders_have_ends, panel_open(s, quoted(tail), 1280, 1600))
                 {"complex", "lag", "rigs.0.channels.0.lag", {0, 30}},
                 {"complex", "gain", "rigs.0.channels.0.gain", {0, 20}},
                 {"cubic", "rest", "rigs.0.rest", {-15, 15}}};
-    walk(s, "click section.advanced");
+    hands(s, "click section.advanced");
     for (size_t r = 0; r < 2 * sizeof rows / sizeof *rows; r++) {
-        walk(s, "click mode.%s; slide %s %.17g; by %d 0; release; is open 0; is %s %.17g", rows[r / 2].mode,
-             rows[r / 2].name, rows[r / 2].ends[r % 2], r % 2 ? 20000 : -20000, rows[r / 2].member,
-             rows[r / 2].ends[r % 2]);
+        hands(s, "click mode.%s; slide %s %.17g; drag %d 0; release; is open 0; is %s %.17g", rows[r / 2].mode,
+              rows[r / 2].name, rows[r / 2].ends[r % 2], r % 2 ? 20000 : -20000, rows[r / 2].member,
+              rows[r / 2].ends[r % 2]);
         assert_loads_again(s->document);
     }
 }
 
-WALK(test_the_place_and_size_of_a_tail, tail, 1280, 1600,
+WALK(test_the_place_and_size_of_a_tail, panel_open(s, tail, 1280, 1600),
      "enter position.x 0.5; is rigs.0.position.0 0.5; enter length 2; is rigs.0.length 2;"
      "enter joints 8; is rigs.0.joints 8; is rigs.0.channels.0.gain 2.5;"
      "slide joints 20; slide joints 16; release; is rigs.0.channels.0.gain 1.25;" // from 8, whatever lay between
-     "click position.z.follow; click item.walk; is rigs.0.position.2.spline walk; is body.z 0.25±1e-6;"
-     "click position.z.follow; is rigs.0.position.2 0.25±1e-3;" // stays where it was
+     "click position.z.follow; click item.walk; is rigs.0.position.2.spline walk; is body.z 0.25 ~1e-6;"
+     "click position.z.follow; is rigs.0.position.2 0.25 ~1e-3;" // stays where it was
      "undone")
 
-WALK(test_channels, tail, 1280, 1600,
+WALK(test_channels, panel_open(s, tail, 1280, 1600),
      "click axis.0; click item.lift; is rigs.0.channels.0.axis up;"
      "click part.displacement; is rigs.0.channels.0.of displacement;"
      "click feed.0; click item.walk; is rigs.0.channels.0.spline walk; is active.name walk;"
@@ -316,47 +316,47 @@ WALK(test_channels, tail, 1280, 1600,
      "click channel.0; click channel.delete; is rigs.0.channels.# 1; is rigs.0.channels.0.spline walk;"
      "click channel.delete; is rigs.0.channels.# 0; lacks gain; undone")
 
-WALK(test_angles_one_for_each_joint, tail, 1280, 1600,
-     "click lag.each; is rigs.0.channels.0.lag.1 6±1e-9; is rigs.0.channels.0.lag.2 12±1e-9;"
-     "is rigs.0.channels.0.lag.3 18±1e-9; is rigs.0.channels.0.lag.0 0±1e-9;"
-     "enter lag.joint -0.04; frames; reads 0.0 → 18.0°;"                         // not −0.0
-     "enter lag.joint 0; click lag.each; is rigs.0.channels.0.lag 6±1e-9;"       // lit: back to one
-     "click gain.each; enter gain.joint 9; is rigs.0.channels.0.gain.0 9; mark;" // the first, as none was touched yet
-     "enter gain.joint x; says joint 1: expected a number; unchanged; key Escape;"
-     "click gain.ramp; is rigs.0.channels.0.gain.ramp list; click gain.ramp; is rigs.0.channels.0.gain >0;"
+WALK(test_angles_one_for_each_joint, panel_open(s, tail, 1280, 1600),
+     "click lag.each; is rigs.0.channels.0.lag.1 6 ~1e-9; is rigs.0.channels.0.lag.2 12 ~1e-9;"
+     "is rigs.0.channels.0.lag.3 18 ~1e-9; is rigs.0.channels.0.lag.0 0 ~1e-9;"
+     "enter lag.joint -0.04; wait; shows 0.0 → 18.0°;"                           // not −0.0
+     "enter lag.joint 0; click lag.each; is rigs.0.channels.0.lag 6 ~1e-9;"      // lit: back to one
+     "click gain.each; enter gain.joint 9; is rigs.0.channels.0.gain.0 9; keep;" // the first, as none was touched yet
+     "enter gain.joint x; said joint 1: expected a number; kept; key Escape;"
+     "click gain.ramp; is rigs.0.channels.0.gain.ramp list; click gain.ramp; is rigs.0.channels.0.gain > 0;"
      "click rest.each; is rigs.0.rest.# 4")
 
 /// A curve is drawn by a drag over the joints: one step, which Esc takes back; arrows go along it.
-SESSION_TEST(test_angles_are_drawn, panel_open(s, quoted(tail), 1280, 1600))
+SESSION_TEST(test_angles_are_drawn, panel_open(s, tail, 1280, 1600))
 {
     const int *joint = &s->editor->inspector->joint[ANGLE_GAIN];
-    walk(s, "click gain.each; mark;"
-            "press gain.curve; by 80 -20;" // from the first joint; a third of the way is the next
-            "is rigs.0.channels.0.gain.0 >5; is rigs.0.channels.0.gain.2 5");
+    hands(s, "click gain.each; keep;"
+             "press gain.curve; drag 80 -20;" // from the first joint; a third of the way is the next
+             "is rigs.0.channels.0.gain.0 > 5; is rigs.0.channels.0.gain.2 5");
     assert_true(number(s, "rigs.0.channels.0.gain.1") > number(s, "rigs.0.channels.0.gain.0"));
     assert_int_equal(*joint, 1);
-    walk(s, "key Escape; unchanged; release;"
-            "pull gain.curve 300 10 6; is rigs.0.channels.0.gain.2 <5; is rigs.0.channels.0.gain.3 <5; step;"
-            "click gain.curve");
+    hands(s, "key Escape; kept; release;"
+             "carry gain.curve 300 10 6; is rigs.0.channels.0.gain.2 < 5; is rigs.0.channels.0.gain.3 < 5; once;"
+             "click gain.curve");
     const int at = *joint;
-    walk(s, "keep rigs.0.channels.0.gain.%d; key Up; is rigs.0.channels.0.gain.%d kept+0.5±1e-9; key Left Up", at,
-         at);
+    hands(s, "keep rigs.0.channels.0.gain.%d; key Up; is rigs.0.channels.0.gain.%d kept+0.5 ~1e-9; key Left Up", at,
+          at);
     assert_int_equal(*joint, at - 1);
 }
 
 /// What a tail shares with another is not asked about. View state is no edit.
-WALK(test_a_tail_is_named_copied_and_deleted, tail, 1280, 1600,
+WALK(test_a_tail_is_named_copied_and_deleted, panel_open(s, tail, 1280, 1600),
      "click tail.name; key Ctrl+A; type brush; key Enter; is rigs.0.name brush;"
      "click rig.copy; is rigs.# 2; is stage.tails 2; is rig 1;"
      "click rig.delete; is rigs.# 1; is asked none;"
      "click rig.delete; is asked ask; key K; is rigs.# 0; is stage.tails 0; is splines.# 2;"
      "click rig.add; click item.tail; is rigs.# 1; is rigs.0.type tail; undone;"
-     "click onion; click trail; click record; is onion 1; is trail 1; is record 1; is undo nothing; unchanged")
+     "click onion; click trail; click record; is onion 1; is trail 1; is record 1; label; kept")
 
 /// An angle of each joint scales as a whole; nothing is lost on the way through zero. The numbers are those of the edited spline.
-WALK(test_a_tails_array_scales_as_a_whole, scene, 1280, 1600,
-     "slide gain 18; is rigs.0.channels.0.gain.0 6±1e-12; is rigs.0.channels.0.gain.2 18;"
-     "at 0 300; is rigs.0.channels.0.gain.2 0; slide gain 9; is rigs.0.channels.0.gain.0 3±1e-12;"
+WALK(test_a_tails_array_scales_as_a_whole, panel_open(s, scene, 1280, 1600),
+     "slide gain 18; is rigs.0.channels.0.gain.0 6 ~1e-12; is rigs.0.channels.0.gain.2 18;"
+     "at 0 300; is rigs.0.channels.0.gain.2 0; slide gain 9; is rigs.0.channels.0.gain.0 3 ~1e-12;"
      "release; key Ctrl+Z; is rigs.0.channels.0.gain.0 3;"
      "key PageUp; is channel 1; key PageDown; is channel 0;"
      "click channel.1; slide lag 12; release; is rigs.0.channels.1.lag 12; is rigs.0.channels.0.lag 6.5")
@@ -387,7 +387,7 @@ static void open_puppet(struct session *s, const char *more_rigs, const char *co
              "{'frame': 20, 'value': -1}]}, {'name': 't', 'knots': [{'frame': 9, 'value': 2}]}], 'rigs': [%s{'type': "
              "'character', 'model': '%s', 'coordinates': [%s]}]}",
              more_rigs, folder_path("puppet.glb"), coordinates);
-    panel_open_models(s, quoted(text));
+    panel_open_models(s, text);
     session_frame(s);
 }
 
@@ -401,30 +401,30 @@ static const struct stage_character *on_stage(const struct session *s, int index
 SESSION_TEST(test_a_character_behind_a_tail_is_edited,
              open_puppet(s, "{'type': 'tail', 'name': 'tail', 'channels': []}, ", "{'name': 'a', 'spline': 's'}"))
 {
-    walk(s, "enter drive.lag 90; is rigs.1.coordinates.0.lag 90; step");
+    hands(s, "enter drive.lag 90; is rigs.1.coordinates.0.lag 90; once");
 }
 
 /// Both coordinates are one limb, until one spline is chosen.
 SESSION_TEST(test_a_lag_is_the_characters,
              open_puppet(s, "", "{'name': 'a', 'spline': 's', 'lag': 20}, {'name': 'b', 'spline': 't', 'lag': 30}"))
 {
-    walk(s, "enter drive.lag 40; is rigs.0.coordinates.0.lag 40; is rigs.0.coordinates.1.lag 60;"
-            "click spline.t; enter drive.lag 15; is rigs.0.coordinates.0.lag 40; is rigs.0.coordinates.1.lag 15");
+    hands(s, "enter drive.lag 40; is rigs.0.coordinates.0.lag 40; is rigs.0.coordinates.1.lag 60;"
+             "click spline.t; enter drive.lag 15; is rigs.0.coordinates.0.lag 40; is rigs.0.coordinates.1.lag 15");
 }
 
 SESSION_TEST(test_a_character_is_edited_live, open_puppet(s, "", "{'name': 'a', 'spline': 's'}"))
 {
     const float before = on_stage(s, 0)->morph.weight[0][0];
-    walk(s, "slide amplitude 1.5; is rigs.0.coordinates.0.amplitude 1.5±0.05");
+    hands(s, "slide amplitude 1.5; is rigs.0.coordinates.0.amplitude 1.5 ~0.05");
     assert_near(on_stage(s, 0)->morph.weight[0][0], (double)before * number(s, "rigs.0.coordinates.0.amplitude"),
                 1e-4);
-    walk(s, "release; step; enter drive.lag 90; is rigs.0.coordinates.0.lag 90;"
-            "key Ctrl+Z; is rigs.0.coordinates.0.lag 0; key Ctrl+Z; unchanged; is undo nothing;"
-            "click drive.add.0; click item.b; is rigs.0.coordinates.# 2; is rigs.0.coordinates.1.name b;"
-            "click drive.1; click drive.splines.0; click item.t; is rigs.0.coordinates.1.spline t;"
-            "is rigs.0.coordinates.0.spline s");
+    hands(s, "release; once; enter drive.lag 90; is rigs.0.coordinates.0.lag 90;"
+             "key Ctrl+Z; is rigs.0.coordinates.0.lag 0; key Ctrl+Z; kept; label;"
+             "click drive.add.0; click item.b; is rigs.0.coordinates.# 2; is rigs.0.coordinates.1.name b;"
+             "click drive.1; click drive.splines.0; click item.t; is rigs.0.coordinates.1.spline t;"
+             "is rigs.0.coordinates.0.spline s");
     assert_int_equal(on_stage(s, 0)->morph.count, 2);
-    walk(s, "click drive.0.remove; is rigs.0.coordinates.# 1; is rigs.0.coordinates.0.name b; undone");
+    hands(s, "click drive.0.remove; is rigs.0.coordinates.# 1; is rigs.0.coordinates.0.name b; undone");
 }
 
 /// The map of phases, the twin beside it, and the stiff look.
@@ -432,13 +432,13 @@ SESSION_TEST(test_views_of_a_character, open_puppet(s, "", "{'name': 'a', 'splin
 {
     const struct stage_character *const it = on_stage(s, 0);
     assert_int_equal(it->map_coordinate, -1);
-    walk(s, "click phases.z; frames");
+    hands(s, "click phases.z; wait");
     assert_true(it->map_coordinate == 0 && it->map_axis == 2);
-    walk(s, "click twin.on; frames; is stage.characters 2");
+    hands(s, "click twin.on; wait; is stage.characters 2");
     assert_true(it[0].coarse && it[1].coarse);
     assert_true(it[1].position[0] - it[0].position[0] > 1.0f);
     assert_near(it[1].morph.weight[0][1], 0, 0);
-    walk(s, "unchanged; is undo nothing; key Right");
+    hands(s, "kept; label; key Right");
     assert_true(fabsf(it->morph.weight[0][1]) > 1e-3f);
     session_key(s, 'V', 0);
     assert_near(it->morph.weight[0][1], 0, 0);
@@ -450,40 +450,40 @@ SESSION_TEST(test_views_of_a_character, open_puppet(s, "", "{'name': 'a', 'splin
 static void open_list(struct session *s, int steps)
 {
     panel_open(s,
-               quoted("{'frames': [0, 480], 'splines': [{'name': 'sway', 'mode': 'cubic', 'knots': [{'frame': 0, "
-                      "'value': 0}]}]}"),
+               "{'frames': [0, 480], 'splines': [{'name': 'sway', 'mode': 'cubic', 'knots': [{'frame': 0, "
+               "'value': 0}]}]}",
                1280, 1184);
-    walk(s, "click section.history; key Shift+Left");
-    for (int i = 0; i < steps; i++) walk(s, "key Right I");
-    walk(s, "is splines.0.knots.# %d", 1 + steps);
+    hands(s, "click section.history; key Shift+Left");
+    for (int i = 0; i < steps; i++) hands(s, "key Right I");
+    hands(s, "is splines.0.knots.# %d", 1 + steps);
 }
 
 /// What was undone stays in the list. While a drag holds a step open, the list does nothing.
 SESSION_TEST(test_a_click_goes_to_a_step, open_list(s, 4))
 {
-    walk(s, "shows history.4; lacks history.5; click history.1; is splines.0.knots.# 2; shows history.4;"
-            "click history.3; is splines.0.knots.# 4; click history.0; is splines.0.knots.# 1; is history.saved 1;"
-            "click history.2");
+    hands(s, "finds history.4; lacks history.5; click history.1; is splines.0.knots.# 2; finds history.4;"
+             "click history.3; is splines.0.knots.# 4; click history.0; is splines.0.knots.# 1; is history.saved 1;"
+             "click history.2");
     history_begin(s->history, "Drag", 0);
-    walk(s, "click history.0; is splines.0.knots.# 3");
+    hands(s, "click history.0; is splines.0.knots.# 3");
     history_end(s->history);
 }
 
 /// A press gives no keyboard focus; Tab does.
 SESSION_TEST(test_keys_go_through_the_steps, open_list(s, 4))
 {
-    walk(s, "click section.history; click section.history; tab history.4; key Up Up; is splines.0.knots.# 3;"
-            "key Down; is splines.0.knots.# 4; key Up*9; is splines.0.knots.# 1;"
-            "key Tab Enter; is splines.0.knots.# 2"); // the row after it
+    hands(s, "click section.history; click section.history; tab history.4; key Up Up; is splines.0.knots.# 3;"
+             "key Down; is splines.0.knots.# 4; key 9*Up; is splines.0.knots.# 1;"
+             "key Tab Enter; is splines.0.knots.# 2"); // the row after it
 }
 
 /// More steps than rows: the list follows the present one, and the wheel shows the others.
 SESSION_TEST(test_a_long_history, open_list(s, 40))
 {
-    walk(s, "shows history.40; lacks history.0; click history.36; is splines.0.knots.# 37;"
-            "wheel 1*20; shows history.0; is splines.0.knots.# 37;" // looking is not going
-            "click history.2; is splines.0.knots.# 3;"
-            "key Ctrl+Y*26; shows history.28");
+    hands(s, "finds history.40; lacks history.0; click history.36; is splines.0.knots.# 37;"
+             "wheel 1 20; finds history.0; is splines.0.knots.# 37;" // looking is not going
+             "click history.2; is splines.0.knots.# 3;"
+             "key 26*Ctrl+Y; finds history.28");
 }
 
 /// Over the list the wheel moves only that, until it is at its end; then the panel.
@@ -492,13 +492,13 @@ SESSION_TEST(test_the_wheel_over_the_history, open_list(s, 40))
     const struct ui_list *steps = &s->editor->inspector->history.list;
     editor_resize(s->editor, 1280, 600, 1);
     unfold(s->editor, "section.history");
-    walk(s, "frames; point section.history; keep scrolled; is scrolled >100");
+    hands(s, "wait; hover section.history; keep scrolled; is scrolled > 100");
     session_move(s, s->x, s->y + 60);
     for (float top = steps->offset; top > 0; top = steps->offset) {
-        walk(s, "wheel 1; is scrolled kept");
+        hands(s, "wheel 1; is scrolled kept");
         assert_true(steps->offset < top);
     }
-    walk(s, "wheel 1; is scrolled <kept");
+    hands(s, "wheel 1; is scrolled < kept");
 }
 
 /// The list says what it does not have any more.
@@ -506,15 +506,15 @@ SESSION_TEST(test_a_history_that_has_dropped_steps, open_list(s, 0))
 {
     editor_resize(s->editor, 1280, 984, 1);
     history_set_limit(s->history, 2000);
-    for (int i = 0; i < 40; i++) walk(s, "key Right I");
+    for (int i = 0; i < 40; i++) hands(s, "key Right I");
     const int dropped = (int)history_dropped(s->history);
     assert_true(dropped > 10);
     for (int i = 0; i < 20; i++) {
-        walk(s, "point section.history");
+        hands(s, "hover section.history");
         session_move(s, s->x, s->y + 40);
         session_wheel(s, 1);
     }
-    walk(s, "click history.0; is splines.0.knots.# %d; reads %d older steps were dropped", 1 + dropped, dropped);
+    hands(s, "click history.0; is splines.0.knots.# %d; shows %d older steps were dropped", 1 + dropped, dropped);
 }
 
 // --- the first start: what an animator needs first, each further section when it is wanted, and More for the rest ---------------
@@ -530,11 +530,12 @@ SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
 {
     static const char *const headers[] = {"section.feel", "section.knot", "section.splines"};
     const struct ui *ui = inspector_of(s->editor);
-    walk(s, "shows preset.cat; shows frequency; shows damping; shows wind-up; shows lag; shows gain; shows knot.next;"
-            "shows spline.sway; shows splines.add; shows more; shows look.stiff;"
-            "lacks follow.frequency; lacks gain.ramp; lacks gain.curve; lacks eye.sway; lacks color.sway;"
-            "lacks splines.delete; lacks section.spline; lacks section.rigs; lacks section.tail; lacks section.pins;"
-            "lacks section.poles; lacks section.history; frames; reads Wiggly; hides Spring"); // none of them is one
+    hands(s,
+          "finds preset.cat; finds frequency; finds damping; finds wind-up; finds lag; finds gain; finds knot.next;"
+          "finds spline.sway; finds splines.add; finds more; finds look.stiff;"
+          "lacks follow.frequency; lacks gain.ramp; lacks gain.curve; lacks eye.sway; lacks color.sway;"
+          "lacks splines.delete; lacks section.spline; lacks section.rigs; lacks section.tail; lacks section.pins;"
+          "lacks section.poles; lacks section.history; wait; shows Wiggly; hides Spring"); // none of them is one
     int count = ui->stop_count; // that Tab reaches, without headers
     for (int i = 0; i < 3 * ui->stop_count; i++) count -= ui->stop[i / 3].id == ui_id(ui, headers[i % 3]);
     assert_in_range(count, 10, 20);
@@ -543,24 +544,24 @@ SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
 /// A section comes with what it is about, and goes with it or when it is closed.
 SESSION_TEST(test_sections_come_when_they_are_wanted, open_first(s))
 {
-    walk(s, "key H; shows section.pins; key Escape; lacks section.pins;" // it pins the tip
-            "key A; type tai; key Enter; shows section.tail; click section.tail; lacks section.tail;"
-            "click more; shows follow.frequency; key F9; lacks follow.frequency; key F9");
+    hands(s, "key H; finds section.pins; key Escape; lacks section.pins;" // it pins the tip
+             "key A; type tai; key Enter; finds section.tail; click section.tail; lacks section.tail;"
+             "click more; finds follow.frequency; key F9; lacks follow.frequency; key F9");
     sections(s->editor)->offset = 1e6f;
-    walk(s, "frames; shows section.history");
+    hands(s, "wait; finds section.history");
 }
 
 /// A click on a tail makes it the subject: its spline is the active one, and its section comes.
 SESSION_TEST(test_a_clicked_tail_is_shown, open_first(s))
 {
-    walk(s, "key PageDown PageDown; lacks section.tail;" // the breath
-            "on tail(tail,0.8); is active.name sway; shows section.tail;"
-            "key PageDown; on tail(tail,0.8); is active.name up; is history.done 0"); // bent by this one, too
+    hands(s, "key PageDown PageDown; lacks section.tail;" // the breath
+             "click tail(tail,0.8); is active.name sway; finds section.tail;"
+             "key PageDown; click tail(tail,0.8); is active.name up; is steps 0"); // bent by this one, too
 }
 
 /// Without splines there is something to begin with.
-WALK(test_an_empty_scene_is_not_an_empty_inspector, "{'frames': [0, 96]}", 1280, 720,
-     "more off; shows rig.add; shows splines.add")
+WALK(test_an_empty_scene_is_not_an_empty_inspector, panel_open(s, "{'frames': [0, 96]}", 1280, 720),
+     "more off; finds rig.add; finds splines.add")
 
 static const char mixed[] =
     "{'frames': [0, 96], 'splines': [{'name': 'tail', 'frequency': 1, 'damping': 0.1, 'knots': [{'frame': 0, "
@@ -574,16 +575,16 @@ static const char mixed[] =
 
 /// No row moves when another spline becomes active, whatever kind it is and whatever is said of it; nor with More, beside a spline whose lag
 /// or gain is a curve.
-SESSION_TEST(test_rows_stay_where_they_are, panel_open(s, quoted(mixed), 1280, 2000))
+SESSION_TEST(test_rows_stay_where_they_are, panel_open(s, mixed, 1280, 2000))
 {
     static const char *const rows[] = {"section.knot", "section.splines", "more", "section.rigs", "section.tail"};
     for (int more = 0; more < 2; more++) {
         const int count = more ? 5 : 3;
-        walk(s, more ? "more" : "more off");
-        for (int r = 0; r < count; r++) walk(s, "keep y:%s", rows[r]);
+        hands(s, more ? "more" : "more off");
+        for (int r = 0; r < count; r++) hands(s, "keep y:%s", rows[r]);
         for (int i = 0; i < 5; i++) {
-            walk(s, "key PageDown; frames");
-            for (int r = 0; r < count; r++) walk(s, "is y:%s kept", rows[r]);
+            hands(s, "key PageDown; wait");
+            for (int r = 0; r < count; r++) hands(s, "is y:%s kept", rows[r]);
         }
     }
 }
@@ -597,10 +598,10 @@ static float drawn_at(const struct session *s, const char *words)
 
 /// In the frame in which the panel gets shorter, or a section is asked for, it is drawn where it stays. A section higher than the panel is
 /// shown from its top, also if it is half in sight.
-SESSION_TEST(test_the_first_frame_is_right, panel_open(s, quoted(mixed), 1280, 360))
+SESSION_TEST(test_the_first_frame_is_right, panel_open(s, mixed, 1280, 360))
 {
     struct inspector *inspector = s->editor->inspector;
-    walk(s, "more");
+    hands(s, "more");
     inspector->sections.offset = 1e6f;
     session_frame(s);
     for (int unfolded = 0; unfolded < 2; unfolded++) {

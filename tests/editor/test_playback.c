@@ -1,7 +1,6 @@
 /// Playback: the real clock, speed, the part that is played, and scrubbing. And what plays: things that swing can be caught, figures play below
 /// their captions, and a tail that is keyed nowhere follows its body.
 #include "hands.h"
-#include "panel_session.h"
 
 #include "editor/stage/state.h"
 

@@ -1,12 +1,10 @@
 /// What knots hold: poses keep their phase through every edit, still knots stay still; an edit changes nothing before the knot before it, nor
 /// beyond the next one; and what is seen when a tail or a chain is let go stays there, for every joint.
-#include "panel_session.h"
 
 #include "beast.h"
 #include "folder.h"
 #include "hands.h"
 #include "scene/edit.h"
-#include "shown.h"
 #include "uniform.h"
 
 #define HOLDING                                                                                                      \

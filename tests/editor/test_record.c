@@ -1,7 +1,6 @@
 /// Recording the body's way: few knots that keep to the hand's motion, a tail that swings as it did, one step to undo. And a take: the scene that
 /// Shift+K kept, shown while K is held, and what the rows of Feel were.
 #include "hands.h"
-#include "panel_session.h"
 
 #include "base/need.h"
 #include "base/progress.h"

@@ -1,8 +1,8 @@
 /// Every screen in every size, at every scale, dark and light: all text is whole, apart from other text, in its panel, and can be read; and
 /// upright windows, where the panels lie below each other.
 #include "base/file.h"
+#include "hands.h"
 #include "legible.h"
-#include "walks.h"
 
 #define KNOTS                                                                                                        \
     "'knots': [{'frame': 0, 'value': 0}, {'frame': 30, 'value': 1, 'slope': 1}, {'frame': 70, 'value': -0.3}]"
@@ -92,14 +92,14 @@ static void open_message(struct session *s)
 #define LONG_PATH "path /home/somebody/a scene with a name that is rather too long to show.json"
 
 static const struct screen {
-    const char *name, *walk;
-    void (*open)(struct session *s); ///< after the walk; NULL: that is all
+    const char *name, *steps;
+    void (*open)(struct session *s); ///< after the steps; NULL: that is all
     bool cut;                        ///< shows something that is too long for any place
     bool narrow, wide;               ///< in windows as narrow as they can be made; in others
 } screens[] = {
     {"start", "welcome", NULL, false, true, true},
-    {"drag", "hold knot(sway,1) 14 -30 3", NULL, false, false, true},
-    {"pull", "hold tail(tail,0.9) 30 -20 3", NULL, false, false, true},
+    {"drag", "pull knot(sway,1) 14 -30 3", NULL, false, false, true},
+    {"pull", "pull tail(tail,0.9) 30 -20 3", NULL, false, false, true},
     {"help", "key F1", NULL, false, true, true},
     {"found keys", "key F1; type knot", NULL, false, false, true},
     {"palette", "key F3; type slope", NULL, false, true, true},
@@ -112,8 +112,8 @@ static const struct screen {
     {"save failed", "key Ctrl+Shift+S", open_failed, false, true, true},
     {"colours", "click section.feel; click color.sway", NULL, false, false, true},
     {"add menu", "key A", NULL, false, false, true},
-    {"one knot", "on knot(sway,1)", open_knots, false, false, true},
-    {"all knots", "on knot(sway,0); key Ctrl+A", NULL, false, false, true},
+    {"one knot", "click knot(sway,1)", open_knots, false, false, true},
+    {"all knots", "click knot(sway,0); key Ctrl+A", NULL, false, false, true},
     {"history",
      "click preset.heavy; click preset.whip; key Ctrl+Z; click section.feel; click section.knot; click "
      "section.splines;"
@@ -145,7 +145,7 @@ static int look_at(const char *scene, const struct screen *screen, const float s
     editor_resize(s.editor, size[0], size[1], size[2]);
     list_files(s.editor, &(struct editor_app){.list = list_names, .recent = list_recent});
     session_frame(&s);
-    walk(&s, "%s", screen->walk);
+    hands(&s, "%s", screen->steps);
     if (screen->open) screen->open(&s);
     session_frame(&s);
     int problems = problems_of(&s, where, whole);
@@ -185,7 +185,7 @@ TEST(test_the_tail_on_every_screen)
     free(scene);
 }
 
-TEST(test_crowded_on_every_screen) { assert_int_equal(look_at_all(quoted(crowded), false), 0); }
+TEST(test_crowded_on_every_screen) { assert_int_equal(look_at_all(crowded, false), 0); }
 
 /// In windows as narrow as they can be made, words may be cut short, but stay apart and inside.
 TEST(test_narrow_windows)
@@ -194,7 +194,7 @@ TEST(test_narrow_windows)
     int problems = 0;
     for (int i = 0; i < 5 * SCREENS; i++) {
         const struct screen *screen = &screens[i / 5];
-        if (screen->narrow) problems += look_at(quoted(crowded), screen, sizes[i % 5], false);
+        if (screen->narrow) problems += look_at(crowded, screen, sizes[i % 5], false);
     }
     assert_int_equal(problems, 0);
 }
@@ -250,13 +250,13 @@ static void check_dialogs(struct session *s)
 {
     static const char *const open[] = {"key Ctrl+O", "key Ctrl+Shift+S", "key Right I Ctrl+Q", "offer"};
     for (int i = 0; i < 8; i++) {
-        if (i % 2 == 0) walk(s, "%s", open[i / 2]);
+        if (i % 2 == 0) hands(s, "%s", open[i / 2]);
         clear(s);
         dialogs_show(s->editor->dialogs);
         assert_true(count_texts(s, layout_of(s->editor)->window, open[i / 2]) >= 4);
         dialog_of(s->editor)->awaited = REQUEST_SAVE;
         panel_answer(s, REQUEST_SAVE, false, long_message);
-        if (i % 2 == 1) walk(s, "key Escape; is asked none");
+        if (i % 2 == 1) hands(s, "key Escape; is asked none");
     }
 }
 
@@ -265,8 +265,8 @@ TEST(test_no_text_leaves_its_panel_or_overlaps)
     static const float sizes[][2] = {{1280, 720}, {960, 600}, {2000, 1200}};
     for (int i = 0; i < 6; i++) {
         struct session s;
-        panel_open(&s, quoted(i % 2 ? huge : small), sizes[i / 2][0], sizes[i / 2][1]);
-        walk(&s, i % 2 ? LONG_PATH : "path x.json");
+        panel_open(&s, i % 2 ? huge : small, sizes[i / 2][0], sizes[i / 2][1]);
+        hands(&s, i % 2 ? LONG_PATH : "path x.json");
         list_files(s.editor, &(struct editor_app){.list = list_long});
         for (int n = 0; n < 6 * s.document->spline_count; n++) {
             activate(s.editor, n / 6);
@@ -280,7 +280,7 @@ TEST(test_no_text_leaves_its_panel_or_overlaps)
 
 // --- upright windows --------------------------------------------------------------------------------------------------------
 
-SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_open(s, quoted(small), 1280, 720))
+SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_open(s, small, 1280, 720))
 {
     static const float sizes[][2] = {{360, 560}, {768, 972}, {390, 792}};
     const struct layout *l = layout_of(s->editor);
@@ -300,12 +300,12 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
     s->finger = true;
     session_move(s, 195, low + 6); // as near as a finger gets
     session_press(s, BUTTON_LEFT, 1);
-    walk(s, "by 0 -56; release");
+    hands(s, "drag 0 -56; release");
     assert_near(l->inspector.y, low - 50, 2);
     session_move(s, 195, l->curves.y);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, middle - 40 - l->curves.y, 4);
-    walk(s, "release; frames");
+    hands(s, "release; wait");
     assert_near(l->curves.y, middle - 40, 1);
     float knot[2];
     session_where(s, "knot(sway,1)", knot);
@@ -321,16 +321,17 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
 
 /// A drag beside the controls scrolls the inspector. A message takes the whole of the status line: there is no room for it beside the
 /// controls, until the next click.
-SESSION_TEST(test_a_narrow_window, panel_open(s, quoted(small), 390, 792))
+SESSION_TEST(test_a_narrow_window, panel_open(s, small, 390, 792))
 {
     session_move(s, 30, layout_of(s->editor)->inspector.y + 150);
     session_press(s, BUTTON_LEFT, 1);
-    walk(s,
-         "by 0 -80; is scrolled 80; by 0 500; is scrolled 0; release; at 30 400; is scrolled 0; is history.saved 1;"
-         "reads Auto-key; tell Saved as walk.json; frames; reads Saved as walk.json; hides Auto-key;"
-         "at 20 780"); // over the play button
+    hands(s,
+          "drag 0 -80; is scrolled 80; drag 0 500; is scrolled 0; release; at 30 400; is scrolled 0; is "
+          "history.saved 1;"
+          "shows Auto-key; tell Saved as walk.json; wait; shows Saved as walk.json; hides Auto-key;"
+          "at 20 780"); // over the play button
     session_click_here(s, 1);
-    walk(s, "is playing 0; reads Auto-key");
+    hands(s, "is playing 0; shows Auto-key");
     session_click_here(s, 1);
-    walk(s, "is playing 1");
+    hands(s, "is playing 1");
 }

@@ -1,7 +1,6 @@
 /// What the curves panel warns of: said where something is wrong, silent where nothing is, and gone after one click. A curve that one pose sends far
 /// beyond its knots. And limits, which hold knots: their lines are dragged, knots stop at them, the inspector switches them.
 #include "hands.h"
-#include "panel_session.h"
 
 #define SCENE(last, members) "{'wiggly': 2, 'frames': [0, " last "], 'splines': [{'name': 'sway', " members "}]}"
 #define SETTLING(members)                                                                                            \
