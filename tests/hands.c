@@ -135,12 +135,12 @@ static void tab(const struct played *step)
 }
 
 /// Clicks on a text, wherever it is drawn.
-static void tap(const struct played *step, int clicks)
+static void tap(const struct played *step)
 {
     const struct draw_command *text = shown_text(step->s->editor, step->rest);
     if (!text) WRONG(step, "%s", "it is not drawn");
     session_move(step->s, text->x + 4, text->y - 4);
-    for (int i = 1; i <= clicks; i++) session_click_here(step->s, i);
+    session_click_here(step->s, 1);
 }
 
 static void paste(struct session *s, const char *text)
@@ -226,8 +226,8 @@ static bool does(const struct played *step)
     } else if (IS("at")) {
         session_move(s, (float)number_in(step, word(step, 1)), (float)number_in(step, word(step, 2)));
         session_frame(s);
-    } else if (IS("tap") || IS("tap-twice")) {
-        tap(step, IS("tap") ? 1 : 2);
+    } else if (IS("tap")) {
+        tap(step);
     } else if (IS("slide")) {
         slide(step);
     } else if (IS("with")) {
@@ -275,32 +275,15 @@ static bool does(const struct played *step)
 /// The request that a step names first.
 static enum request_kind request_of(const struct played *step)
 {
-    static const struct {
-        const char *name;
-        enum request_kind kind;
-    } rows[] = {{"nothing", REQUEST_NONE},
-                {"open", REQUEST_OPEN},
-                {"add", REQUEST_ADD},
-                {"save", REQUEST_SAVE},
-                {"save-as", REQUEST_SAVE_AS},
-                {"quit", REQUEST_QUIT},
-                {"recover", REQUEST_RECOVER},
-                {"forget", REQUEST_FORGET},
-                {"export", REQUEST_EXPORT},
-                {"stop", REQUEST_EXPORT_STOP},
-                {"screenshot", REQUEST_SCREENSHOT}};
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (strcmp(rows[i].name, word(step, 1)) == 0) return rows[i].kind;
+    static const char *const names[] = {
+        [REQUEST_NONE] = "nothing",    [REQUEST_OPEN] = "open",       [REQUEST_ADD] = "add",
+        [REQUEST_SAVE] = "save",       [REQUEST_SAVE_AS] = "save-as", [REQUEST_QUIT] = "quit",
+        [REQUEST_RECOVER] = "recover", [REQUEST_FORGET] = "forget",   [REQUEST_SCREENSHOT] = "screenshot",
+        [REQUEST_EXPORT] = "export",   [REQUEST_EXPORT_STOP] = "stop"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (names[i] && strcmp(names[i], word(step, 1)) == 0) return (enum request_kind)i;
     WRONG(step, "there is no request %s", step->word[1]);
     return REQUEST_NONE;
-}
-
-static void asks(const struct played *step)
-{
-    const enum request_kind kind = request_of(step);
-    const struct request request = session_asked(step->s);
-    if (request.kind != kind || strcmp(request.path, behind(step, step->word[1])) != 0)
-        WRONG(step, "it was asked for %d \"%s\"", (int)request.kind, request.path);
 }
 
 /// What the app does; returns false if the step is none.
@@ -309,7 +292,9 @@ static bool runs(const struct played *step)
     static const struct recovery_offer unsaved = {"walk.json", "21 November 2026, 10:00:00", 1};
     struct session *s = step->s;
     if (IS("asks")) {
-        asks(step);
+        const struct request request = session_asked(s);
+        if (request.kind != request_of(step) || strcmp(request.path, behind(step, step->word[1])) != 0)
+            WRONG(step, "it was asked for %d \"%s\"", (int)request.kind, request.path);
     } else if (IS("answer")) {
         const char *refusal = behind(step, word(step, 1));
         panel_answer(s, request_of(step), !*refusal, refusal);
@@ -454,9 +439,7 @@ static double of_editor(struct session *s, const char *name)
                    {"dragging", is_dragging(e)},
                    {"dropped", (double)playback->dropped},
                    {"export.keys", e->dialogs->exporting.memory.wish.keys},
-                   {"first", s->document->first_frame},
                    {"history.saved", history_is_saved(s->history)},
-                   {"last", s->document->last_frame},
                    {"looping", is_on(e, SWITCH_LOOP)},
                    {"matches", dialog->match_count},
                    {"onion", is_on(e, SWITCH_ONION)},
@@ -476,11 +459,9 @@ static double of_editor(struct session *s, const char *name)
                    {"seconds", is_on(e, SWITCH_SECONDS)},
                    {"sliding", inspector_is_dragging(e->inspector)},
                    {"speed", playback->speed},
-                   {"splines", s->document->spline_count},
                    {"stage.characters", editor_stage(e)->character_count},
                    {"stage.tails", e->stage->tail_count},
                    {"steps", (double)history_done(s->history)},
-                   {"substeps", s->document->substeps},
                    {"tip.behind", pose->matrix[24][12] - pose->matrix[0][12]},
                    {"trail", is_on(e, SWITCH_TRAIL)},
                    {"typing", inspector_of(e)->typing != 0},
@@ -517,18 +498,20 @@ static bool find_saved(struct session *s, const char *path, char text[MOST_TEXT]
     return text[0] != '\0';
 }
 
-/// A text of the editor; false: no such.
-static bool text_of(const struct session *s, const char *name, char text[MOST_TEXT])
+/// What a name of `is` means now, as text; false: nothing has it.
+static bool find(struct session *s, const char *name, char text[MOST_TEXT])
 {
     // in the order of enum dialog_kind, lookup_kind and event_cursor
     static const char *const dialogs[] = {"none",    "open",    "add", "save-as", "unsaved",
                                           "recover", "changed", "ask", "export"};
-    static const char *const lookups[] = {"none", "keys", "palette"};
+    static const char *const lookups[] = {"none", "keys", "palette", "menu"};
     static const char *const looks[] = {[LOOK_WIGGLY] = "wiggly", [LOOK_STIFF] = "stiff", [LOOK_CUBIC] = "cubic"};
     static const char *const cursors[] = {"arrow", "hand", "horizontal", "vertical", "move", "text"};
     struct editor *e = s->editor;
     int model;
+    float x, y;
     const int at = active(e), node = bones_selected(&e->core, &model);
+    const double number = of_editor(s, name);
     const struct ui *ui = inspector_of(e);
     const struct {
         const char *name, *text;
@@ -547,20 +530,12 @@ static bool text_of(const struct session *s, const char *name, char text[MOST_TE
                  {"typed", typed(e)}};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         if (strcmp(name, texts[i].name) == 0) return snprintf(text, MOST_TEXT, "%s", texts[i].text) >= 0;
-    return false;
-}
-
-/// What a name of `is` means now, as text; false: nothing has it.
-static bool find(struct session *s, const char *name, char text[MOST_TEXT])
-{
-    const double number = of_editor(s, name);
-    float x, y;
     if (!isnan(number)) return snprintf(text, MOST_TEXT, "%.17g", number) > 0;
     if (strncmp(name, "y:", 2) == 0)
-        return widget_at(s->editor, name + 2, &x, &y) && snprintf(text, MOST_TEXT, "%.9g", (double)y) > 0;
+        return widget_at(e, name + 2, &x, &y) && snprintf(text, MOST_TEXT, "%.9g", (double)y) > 0;
     if (strncmp(name, "curve:", 6) == 0)
-        return snprintf(text, MOST_TEXT, "%d", spline_list_shows(&s->editor->core, atoi(name + 6))) > 0;
-    return text_of(s, name, text) || find_saved(s, name, text);
+        return snprintf(text, MOST_TEXT, "%d", spline_list_shows(&e->core, atoi(name + 6))) > 0;
+    return find_saved(s, name, text);
 }
 
 double number(struct session *s, const char *name)
@@ -577,14 +552,12 @@ static int numbers_of(const struct played *step, const char *text, double found[
     snprintf(name, sizeof name, "%s", text);
     char *member = name + strcspn(name, ".@"), *end;
     const bool samples = *member == '@';
-    if (!*member) {
-        if (strcmp(name, "part") == 0) return playback_range(&s->editor->core, found), 2;
-        found[0] = of_editor(s, name);
-        return isnan(found[0]) ? 0 : 1;
-    }
-    *member++ = '\0';
+    if (strcmp(name, "part") == 0) return playback_range(&s->editor->core, found), 2;
+    found[0] = of_editor(s, name);
+    if (!isnan(found[0])) return 1;
+    if (*member) *member++ = '\0';
     const int i = document_find_spline(s->document, name);
-    if (i < 0) WRONG(step, "there is no spline %s", name);
+    if (i < 0) WRONG(step, "there is no %s", name);
     const struct spline *spline = s->document->splines[i];
     if (samples) {
         found[0] = s->work.evaluation.curves[i].total[(int)number_in(step, member) * s->document->substeps];
@@ -633,7 +606,7 @@ static void compare(const struct played *step, int first, const double found[], 
                            : sign == '<' ? found[i] < value
                            : sign == '!' ? found[i] != value
                                          : fabs(found[i] - value) <= within || found[i] == value;
-        if (!holds) WRONG(step, "number %d is %.17g", i, found[i]);
+        if (!holds || isnan(found[i])) WRONG(step, "number %d is %.17g", i, found[i]);
     }
 }
 
@@ -649,14 +622,9 @@ static void is(const struct played *step)
     compare(step, 2, &value, 1, 0);
 }
 
-static void is_so(const struct played *step)
-{
-    double found[MOST_NUMBERS];
-    compare(step, 1, found, numbers_of(step, step->word[0], found), 1e-9);
-}
-
 static void play(struct played *step)
 {
+    double found[MOST_NUMBERS];
     char *left;
     snprintf(step->words, sizeof step->words, "%s", step->text);
     step->count = 0;
@@ -669,7 +637,8 @@ static void play(struct played *step)
     step->rest = step->text + strcspn(step->text, " ");
     step->rest += strspn(step->rest, " ");
     if (IS("is")) return is(step);
-    if (!strokes(step) && !does(step) && !runs(step) && !tells(step)) is_so(step);
+    if (!strokes(step) && !does(step) && !runs(step) && !tells(step))
+        compare(step, 1, found, numbers_of(step, step->word[0], found), 1e-9);
 }
 
 void hands(struct session *s, const char *steps, ...)

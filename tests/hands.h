@@ -6,7 +6,7 @@
 ///   point T; hover T; at X Y   hover and at: and shows a frame
 ///   press [T]; release         the left button
 ///   click [T]; again [T]       again: the second click of a double-click
-///   tap TEXT; tap-twice TEXT   clicks on what is drawn
+///   tap TEXT                   clicks on what is drawn
 ///   drag DX DY [N]             in N events (4), each with a frame; 2f: as wide as two frames; 0.5v: as high as a value of 0.5
 ///   pull T DX DY [N]; carry T DX DY [N]    press and drag; carry: and release
 ///   box T T                    drags from one to the other

@@ -265,7 +265,7 @@ SESSION_TEST(the_view_follows_a_longer_scene, session_open(s, FIVE))
 {
     const struct plotted *view = plot_of(s->editor);
     const double left = view->frame0;
-    hands(s, "key Ctrl+A Ctrl+D; last > 96; wait 60");
+    hands(s, "key Ctrl+A Ctrl+D; is frames.1 > 96; wait 60");
     assert_true(view->frame1 > s->document->last_frame);
     assert_near(view->frame0, left, 1e-9);
 }

@@ -1,6 +1,5 @@
 /// What a hand reaches for daily: pause, undo, the palette.
-#include "panel_session.h"
-#include "shown.h"
+#include "hands.h"
 
 #include <limits.h>
 #include <unistd.h>
@@ -235,8 +234,7 @@ SESSION_TEST(test_fields_calculate, panel_open(s, scene, 1280, 720))
                 {"1+2*1,5", 4}, {"3 - 1", 2}, {"* 2 Hz", 3}, {"1e0", 1},    {"+1,25/0,5", 4}, {"0x2", 0},
                 {"1/0", 0},     {"+", 0},     {"2*", 0},     {"2 Hz*2", 0}, {"1+-+2", 0},     {"inf", 0}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        panel_enter(s, "frequency", "1.5");
-        panel_enter(s, "frequency", rows[i].typed);
+        hands(s, "enter frequency 1.5; enter frequency %s", rows[i].typed);
         const double expected = rows[i].frequency > 0 ? rows[i].frequency : 1.5;
         const double got = s->document->splines[0]->parameter[PARAMETER_FREQUENCY].value;
         if (fabs(got - expected) > 1e-12) fail_msg("1.5, then “%s”: %g, expected %g", rows[i].typed, got, expected);
@@ -252,16 +250,12 @@ SESSION_TEST(test_right_click_is_a_menu, panel_open(s, scene, 1280, 720))
     session_release(s, BUTTON_RIGHT);
     assert_int_equal(lookup_of(s->editor)->kind, LOOKUP_MENU);
     assert_int_equal(selected(s->editor), 1);
-    assert_true(session_shows(s, "Delete the selection") && session_shows(s, "Scale the selection"));
-    assert_false(session_shows(s, "Go to the start") || session_shows(s, "Undo"));
-    session_key(s, KEY_ENTER, 0);
+    hands(s, "shows Delete the selection; shows Scale the selection; hides Go to the start; hides Undo; key Enter");
     assert_int_equal(s->document->splines[0]->knot_count, 1);
     session_point(s, "ruler(50)");
     session_press(s, BUTTON_RIGHT, 1);
     session_release(s, BUTTON_RIGHT);
-    assert_true(session_shows(s, "Play from here"));
-    panel_type(s, "undo");
-    session_key(s, KEY_ENTER, 0);
+    hands(s, "shows Play from here; type undo; key Enter");
     assert_int_equal(s->document->splines[0]->knot_count, 2);
     session_point(s, "stage(0.5,0.5)");
     session_press(s, BUTTON_RIGHT, 1);
@@ -270,9 +264,7 @@ SESSION_TEST(test_right_click_is_a_menu, panel_open(s, scene, 1280, 720))
     assert_int_equal(lookup_of(s->editor)->kind, LOOKUP_NONE);
     session_press(s, BUTTON_RIGHT, 1);
     session_release(s, BUTTON_RIGHT);
-    assert_true(session_shows(s, "Onion skin"));
-    session_key(s, KEY_ESCAPE, 0);
-    assert_int_equal(lookup_of(s->editor)->kind, LOOKUP_NONE);
+    hands(s, "shows Onion skin; key Escape; is lookup none");
 }
 
 /// Paste in place keeps the frames, paste mirrored turns the values over, once; a selection is mirrored over all its splines.

@@ -65,7 +65,7 @@ FILES_WALK(test_recent_files_are_filtered, "x.json",
 /// One click chooses a name and opens a recent file; two open a name.
 FILES_WALK(test_the_mouse_in_the_list, "x.json",
            "key Ctrl+O; tap two.json; asks nothing; is typed two.json;"
-           "key Escape Ctrl+O; tap-twice two.json; asks open two.json; opened; answer open;"
+           "key Escape Ctrl+O; tap two.json; again; asks open two.json; opened; answer open;"
            "key Ctrl+O; wait; tap walk.json; asks open /home/me/scenes/walk.json; answer open no;"
            "key Escape Ctrl+O; wheel -1; is choice 2; wheel 1; is choice 0")
 

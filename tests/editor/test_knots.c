@@ -209,7 +209,8 @@ SESSION_TEST(pasted_knots_of_unknown_splines_go_to_the_active_one, session_open(
 
 /// 10 … 60 and 40 behind each other: 20 later.
 WALK(copies_go_behind_the_end, session_open(s, THREE),
-     "key Ctrl+Shift+A; keep; key Ctrl+D; sway.knots 8; last 130; sway.7.frame 130; up.2.frame 90; selected 7; once")
+     "key Ctrl+Shift+A; keep; key Ctrl+D; sway.knots 8; is frames.1 130; sway.7.frame 130; up.2.frame 90; selected "
+     "7; once")
 
 // --- scaling ---
 
@@ -453,7 +454,7 @@ SESSION_TEST(copies_come_behind_and_pass_through, session_open(s, MARKED))
 {
     hands(s, "click knot(sway,2); with Shift; click knot(sway,3); with; keep; key Ctrl+D;"
              "sway.frame 10 20.5 30 40 51 60 61; sway.6.value 0.5; once;"
-             "key Ctrl+A; keep; key Ctrl+D; sway.knots 14; last 113; said now ends on frame 113; once;"
+             "key Ctrl+A; keep; key Ctrl+D; sway.knots 14; is frames.1 113; said now ends on frame 113; once;"
              "key Ctrl+Z; click knot(sway,5); key Ctrl+D");
     const char *mark = strstr(session_saved(s), "\"mark\": \"kept\"");
     assert_non_null(mark);

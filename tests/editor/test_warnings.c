@@ -28,7 +28,7 @@ static const struct {
      SCENE("72", "'frequency': 1, 'mode': 'real', 'calm': 0, 'damping': 0.05, 'knots': [<10 1>, <22 1>]"),
      "sway.knots 2; sway.calm 1 ~0"},
     {WARNING_RATE, SCENE("48", "'frequency': 9, 'damping': 0.1, 'bandwidth': 0.1, 'knots': [<10 0>, <12 1>, <14 0>]"),
-     "substeps 2; sway.frequency 9 ~0"},
+     "is substeps 2; sway.frequency 9 ~0"},
     // knots on both samples beside a slope: nothing is left for it to say
     {WARNING_SLOPE,
      SCENE("48", "'frequency': 1, 'mode': 'real', 'damping': 0.1, 'knots': [<10 0.2>, {'frame': 11, 'value': 0.3, "
