@@ -344,12 +344,10 @@ PINNED_TEST(test_the_selected_mark_is_taken_first)
     assert_ptr_not_equal(hovered(s->editor), &thing_pin_time);
 }
 
-PINNED_TEST(test_the_inspector_lists_pins_and_takes_numbers)
-{
-    hands(s, "key Escape; lacks pin.x; click pin.0; finds pin.x; enter pin.x 0.25; is rigs.0.pins.0.to.0 0.25;"
-             "enter pin.frame 12; is rigs.0.pins.0.frame 12; enter pin.point 11; is rigs.0.pins.0.joint 11;"
-             "click pin.0.remove; is rigs.0.pins.# nothing");
-}
+WALK(test_the_inspector_lists_pins_and_takes_numbers, open_pinned(s),
+     "key Escape; lacks pin.x; click pin.0; finds pin.x; enter pin.x 0.25; is rigs.0.pins.0.to.0 0.25;"
+     "enter pin.frame 12; is rigs.0.pins.0.frame 12; enter pin.point 11; is rigs.0.pins.0.joint 11;"
+     "click pin.0.remove; is rigs.0.pins.# nothing")
 
 /// The surface is pinned and follows the pointer. The soles hardly move: pulling them would throw all else far.
 PIN_TEST(test_the_surface_of_a_character_is_pinned, creature)

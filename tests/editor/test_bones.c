@@ -144,11 +144,9 @@ BEAST_TEST(test_a_chain_is_made, "")
              "error \"head\" branches into \"ear_L_1\" and \"ear_R_1\"");
 }
 
-BEAST_TEST(test_undoing_a_chain_activates_what_was_active, TAIL)
-{
-    hands(s, "key PageUp; is active 1; click bone(ear_L_1); key J; click bone(leg_FL_1); key J; is active 4;"
-             "key Ctrl+Z; is active 2; is rig 2; key Ctrl+Z; is active 1; is rig 1");
-}
+WALK(test_undoing_a_chain_activates_what_was_active, open_beast(s, "0", TAIL),
+     "key PageUp; is active 1; click bone(ear_L_1); key J; click bone(leg_FL_1); key J; is active 4;"
+     "key Ctrl+Z; is active 2; is rig 2; key Ctrl+Z; is active 1; is rig 1")
 
 /// How far a point of the tail is from the pointer.
 static float apart(const struct session *s, const char *target)
@@ -191,32 +189,26 @@ BEAST_TEST(test_the_curves_show_a_knot_that_was_pulled, TAIL_UP)
 
 // --- the inspector on characters and chains -------------------------------------------------------------------------------
 
-BEAST_TEST(test_the_inspector_chooses_the_clip, "")
-{
-    hands(s, "click model.clips.0; click item.Nod; is rigs.0.clip Nod;"
-             "click model.loops; is rigs.0.repeat once; click model.loops; is rigs.0.repeat loop;"
-             "key Ctrl+Z Ctrl+Z; once;"
-             "click model.clips.0; click item.none; is rigs.0.clip nothing; kept;"
-             "enter model.scale 2; enter model.turn 90; enter model.x 0.5; is rigs.0.scale 2; is rigs.0.turn 90;"
-             "is rigs.0.position.0 0.5");
-}
+WALK(test_the_inspector_chooses_the_clip, open_beast(s, "0", ""),
+     "click model.clips.0; click item.Nod; is rigs.0.clip Nod;"
+     "click model.loops; is rigs.0.repeat once; click model.loops; is rigs.0.repeat loop;"
+     "key Ctrl+Z Ctrl+Z; once;"
+     "click model.clips.0; click item.none; is rigs.0.clip nothing; kept;"
+     "enter model.scale 2; enter model.turn 90; enter model.x 0.5; is rigs.0.scale 2; is rigs.0.turn 90;"
+     "is rigs.0.position.0 0.5")
 
 /// Each move of a drag makes its edit anew, of the chain as it was at the press. Its spline stays when the chain goes.
-BEAST_TEST(test_a_chain_is_edited_in_the_inspector, TAIL)
-{
-    hands(s, "carry chain.turn 40 0 6; is rigs.1.turn > 0; is rigs.1.from tail_1; once; key Ctrl+Z;"
-             "click axis.twist; is rigs.1.channels.0.axis twist; click chain.mirror; is rigs.1.mirror true;"
-             "enter chain.turn 30; is rigs.1.turn 30; enter gain 11; is rigs.1.channels.0.gain 11;"
-             "click tail.name; key Ctrl+A; type brush; key Enter; is rigs.1.name brush;"
-             "click rig.delete; key K; is rigs.# 1; is splines.# 2; key 6*Ctrl+Z; kept");
-}
+WALK(test_a_chain_is_edited_in_the_inspector, open_beast(s, "0", TAIL),
+     "carry chain.turn 40 0 6; is rigs.1.turn > 0; is rigs.1.from tail_1; once; key Ctrl+Z;"
+     "click axis.twist; is rigs.1.channels.0.axis twist; click chain.mirror; is rigs.1.mirror true;"
+     "enter chain.turn 30; is rigs.1.turn 30; enter gain 11; is rigs.1.channels.0.gain 11;"
+     "click tail.name; key Ctrl+A; type brush; key Enter; is rigs.1.name brush;"
+     "click rig.delete; key K; is rigs.# 1; is splines.# 2; key 6*Ctrl+Z; kept")
 
 /// A chain that follows bends by many degrees a metre: its slider goes that far, and stays as it is while it is dragged.
-BEAST_TEST(test_a_large_gain_is_on_its_slider, TAIL_UP)
-{
-    hands(s, "enter gain 86; slide gain 120; is rigs.1.channels.0.gain 120 ~2; release;"
-             "slide gain 30; is rigs.1.channels.0.gain 30 ~2; release");
-}
+WALK(test_a_large_gain_is_on_its_slider, open_beast(s, "0", TAIL_UP),
+     "enter gain 86; slide gain 120; is rigs.1.channels.0.gain 120 ~2; release;"
+     "slide gain 30; is rigs.1.channels.0.gain 30 ~2; release")
 
 /// Its points are dragged, set beside the line by a double-click, and deleted down to two; lit, the button goes back to one angle.
 BEAST_TEST(test_a_gain_becomes_a_ramp_whose_points_move, TAIL)
@@ -547,11 +539,9 @@ RIG_TEST(test_a_press_takes_the_bone_whose_part_is_drawn_there)
 }
 
 /// Neither the ring in the ear nor its leaf is a branch, or part of the chain.
-RIG_TEST(test_hover_names_the_chain_that_the_key_makes)
-{
-    hands(s, "hover bone(ear_L_1); shows ear_L_1 to ear_L_2, 2 bones; hover bone(head); shows head;"
-             "click bone(ear_L_1); key J; is rigs.1.from ear_L_1; is rigs.1.to ear_L_2");
-}
+WALK(test_hover_names_the_chain_that_the_key_makes, open_written(s, write_rig),
+     "hover bone(ear_L_1); shows ear_L_1 to ear_L_2, 2 bones; hover bone(head); shows head;"
+     "click bone(ear_L_1); key J; is rigs.1.from ear_L_1; is rigs.1.to ear_L_2")
 
 static float size_of_ear(const struct session *s)
 {

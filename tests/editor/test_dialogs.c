@@ -43,31 +43,28 @@ static void open_files(struct session *s, const char *path)
     listings = 0;
 }
 
-#define FILES_WALK(name, path, ...)                                                                                  \
-    SESSION_TEST(name, open_files(s, path)) { hands(s, __VA_ARGS__); }
-
 // --- open ---------------------------------------------------------------------------------------------------------------
 
-FILES_WALK(test_recent_files, "x.json",
-           "key Ctrl+O; is matches 8; shows /home/me/scenes; shows no longer exists;"
-           "key Down Down Enter; asks nothing; is refused /home/me/gone.json no longer exists.;"
-           "type x; is refused ;" // another file: what was wrong with that one is off the screen
-           "key Backspace Up Enter; asks open /home/me/scenes/walk.json")
+WALK(test_recent_files, open_files(s, "x.json"),
+     "key Ctrl+O; is matches 8; shows /home/me/scenes; shows no longer exists;"
+     "key Down Down Enter; asks nothing; is refused /home/me/gone.json no longer exists.;"
+     "type x; is refused ;" // another file: what was wrong with that one is off the screen
+     "key Backspace Up Enter; asks open /home/me/scenes/walk.json")
 
 /// Typing filters them as it filters the folder's names, and they are not offered for saving.
-FILES_WALK(test_recent_files_are_filtered, "x.json",
-           "key Ctrl+O; type AL; is matches 1;"
-           "key Enter; asks open AL;" // walk.json does not begin so, hence it is not meant unless it is chosen
-           "answer open AL: no such file; key Down Enter; asks open /home/me/scenes/walk.json; answer open no;"
-           "key Escape Ctrl+O; type t; is matches 1; key Tab; is typed two.json;"
-           "key Escape Ctrl+Shift+S; is recent 0")
+WALK(test_recent_files_are_filtered, open_files(s, "x.json"),
+     "key Ctrl+O; type AL; is matches 1;"
+     "key Enter; asks open AL;" // walk.json does not begin so, hence it is not meant unless it is chosen
+     "answer open AL: no such file; key Down Enter; asks open /home/me/scenes/walk.json; answer open no;"
+     "key Escape Ctrl+O; type t; is matches 1; key Tab; is typed two.json;"
+     "key Escape Ctrl+Shift+S; is recent 0")
 
 /// One click chooses a name and opens a recent file; two open a name.
-FILES_WALK(test_the_mouse_in_the_list, "x.json",
-           "key Ctrl+O; tap two.json; asks nothing; is typed two.json;"
-           "key Escape Ctrl+O; tap two.json; again; asks open two.json; opened; answer open;"
-           "key Ctrl+O; wait; tap walk.json; asks open /home/me/scenes/walk.json; answer open no;"
-           "key Escape Ctrl+O; wheel -1; is choice 2; wheel 1; is choice 0")
+WALK(test_the_mouse_in_the_list, open_files(s, "x.json"),
+     "key Ctrl+O; tap two.json; asks nothing; is typed two.json;"
+     "key Escape Ctrl+O; tap two.json; again; asks open two.json; opened; answer open;"
+     "key Ctrl+O; wait; tap walk.json; asks open /home/me/scenes/walk.json; answer open no;"
+     "key Escape Ctrl+O; wheel -1; is choice 2; wheel 1; is choice 0")
 
 /// Names that begin so come before those that have it in their middle. The folder is listed once, not at every key.
 SESSION_TEST(test_open_completes_paths, open_files(s, "x.json"))
@@ -85,21 +82,21 @@ SESSION_TEST(test_open_completes_paths, open_files(s, "x.json"))
              "key Ctrl+O; type nobody; shows Nothing matches.");
 }
 
-FILES_WALK(test_a_dialog_takes_every_key, "x.json",
-           "key Ctrl+O; type vim. ; key Ctrl+Z F1 Delete; is look wiggly; is lookup none; is typed vim. ; kept")
+WALK(test_a_dialog_takes_every_key, open_files(s, "x.json"),
+     "key Ctrl+O; type vim. ; key Ctrl+Z F1 Delete; is look wiggly; is lookup none; is typed vim. ; kept")
 
 // --- save, and quit -------------------------------------------------------------------------------------------------------
 
 /// What has no file yet asks where, until it succeeds; then it starts from where the file is, not from its bare name.
-FILES_WALK(test_save_as_stays_until_it_succeeds, "",
-           "key Ctrl+S; is asked save-as; is typed untitled.json;"
-           "type no/such/dog; key Enter; asks save-as no/such/dog.json;"
-           "answer save-as no/such/dog.json: there is no such folder; is asked save-as;"
-           "is refused no/such/dog.json: there is no such folder; said;"
-           "key 20*Backspace Enter; asks nothing;" // nothing typed
-           "type untitled.json; key Enter; asks save-as untitled.json;"
-           "path pets/dog.json; answer save-as; is asked none;"
-           "key Ctrl+S; asks save; key Ctrl+Shift+S; is typed pets/dog.json")
+WALK(test_save_as_stays_until_it_succeeds, open_files(s, ""),
+     "key Ctrl+S; is asked save-as; is typed untitled.json;"
+     "type no/such/dog; key Enter; asks save-as no/such/dog.json;"
+     "answer save-as no/such/dog.json: there is no such folder; is asked save-as;"
+     "is refused no/such/dog.json: there is no such folder; said;"
+     "key 20*Backspace Enter; asks nothing;" // nothing typed
+     "type untitled.json; key Enter; asks save-as untitled.json;"
+     "path pets/dog.json; answer save-as; is asked none;"
+     "key Ctrl+S; asks save; key Ctrl+Shift+S; is typed pets/dog.json")
 
 /// Changes something, then asks to quit.
 static void open_unsaved(struct session *s, const char *path)
@@ -132,11 +129,9 @@ SESSION_TEST(test_quit_waits_for_the_save, open_unsaved(s, "dog.json"))
              "key Enter; asks save-as untitled.json; path pets/dog.json; answer save-as; asks quit");
 }
 
-SESSION_TEST(test_cancelled_save_as_forgets_what_was_to_follow, open_unsaved(s, ""))
-{
-    hands(s, "type s; key Escape Ctrl+Shift+S Enter; asks save-as untitled.json;"
-             "path pets/dog.json; answer save-as; asks nothing"); // does not quit after all
-}
+WALK(test_cancelled_save_as_forgets_what_was_to_follow, open_unsaved(s, ""),
+     "type s; key Escape Ctrl+Shift+S Enter; asks save-as untitled.json;"
+     "path pets/dog.json; answer save-as; asks nothing") // does not quit after all
 
 // --- recovery -----------------------------------------------------------------------------------------------------------
 
@@ -156,13 +151,10 @@ SESSION_TEST(test_recover, open_offer(s))
 }
 
 /// Discarding offers the next one, if there is one; Esc, or closing the window, decides it later.
-SESSION_TEST(test_discard_and_later, open_offer(s))
-{
-    hands(s,
-          "tap Discard; asks forget; offer; answer forget; is asked recover; key Escape; is asked none; asks nothing;"
-          "offer; tap Discard; asks forget; answer forget; is asked none;"
-          "offer; close; asks quit");
-}
+WALK(test_discard_and_later, open_offer(s),
+     "tap Discard; asks forget; offer; answer forget; is asked recover; key Escape; is asked none; asks nothing;"
+     "offer; tap Discard; asks forget; answer forget; is asked none;"
+     "offer; close; asks quit")
 
 // --- the card -----------------------------------------------------------------------------------------------------------
 
@@ -298,14 +290,12 @@ TEST(test_what_enter_writes)
     }
 }
 
-EXPORT_TEST(test_the_ending_is_the_format)
-{
-    hands(s, "type take.csv; is export.ending .csv; hides clip;" // over the selected name
-             "key Down; is export.path take.pc2;"
-             "tap .mp4; shows Write take.mp4;"
-             "shows 49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
-             "tap take.mp4; type 2; shows Write take.mp42.mp4"); // back in the name, where typing goes on
-}
+WALK(test_the_ending_is_the_format, open_export(s, scene, "walk.json", 1280, 720),
+     "type take.csv; is export.ending .csv; hides clip;" // over the selected name
+     "key Down; is export.path take.pc2;"
+     "tap .mp4; shows Write take.mp4;"
+     "shows 49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
+     "tap take.mp4; type 2; shows Write take.mp42.mp4") // back in the name, where typing goes on
 
 EXPORT_TEST(test_choices_are_asked_for)
 {

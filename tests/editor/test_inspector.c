@@ -470,21 +470,17 @@ SESSION_TEST(test_a_click_goes_to_a_step, open_list(s, 4))
 }
 
 /// A press gives no keyboard focus; Tab does.
-SESSION_TEST(test_keys_go_through_the_steps, open_list(s, 4))
-{
-    hands(s, "click section.history; click section.history; tab history.4; key Up Up; is splines.0.knots.# 3;"
-             "key Down; is splines.0.knots.# 4; key 9*Up; is splines.0.knots.# 1;"
-             "key Tab Enter; is splines.0.knots.# 2"); // the row after it
-}
+WALK(test_keys_go_through_the_steps, open_list(s, 4),
+     "click section.history; click section.history; tab history.4; key Up Up; is splines.0.knots.# 3;"
+     "key Down; is splines.0.knots.# 4; key 9*Up; is splines.0.knots.# 1;"
+     "key Tab Enter; is splines.0.knots.# 2") // the row after it
 
 /// More steps than rows: the list follows the present one, and the wheel shows the others.
-SESSION_TEST(test_a_long_history, open_list(s, 40))
-{
-    hands(s, "finds history.40; lacks history.0; click history.36; is splines.0.knots.# 37;"
-             "wheel 1 20; finds history.0; is splines.0.knots.# 37;" // looking is not going
-             "click history.2; is splines.0.knots.# 3;"
-             "key 26*Ctrl+Y; finds history.28");
-}
+WALK(test_a_long_history, open_list(s, 40),
+     "finds history.40; lacks history.0; click history.36; is splines.0.knots.# 37;"
+     "wheel 1 20; finds history.0; is splines.0.knots.# 37;" // looking is not going
+     "click history.2; is splines.0.knots.# 3;"
+     "key 26*Ctrl+Y; finds history.28")
 
 /// Over the list the wheel moves only that, until it is at its end; then the panel.
 SESSION_TEST(test_the_wheel_over_the_history, open_list(s, 40))
@@ -552,12 +548,10 @@ SESSION_TEST(test_sections_come_when_they_are_wanted, open_first(s))
 }
 
 /// A click on a tail makes it the subject: its spline is the active one, and its section comes.
-SESSION_TEST(test_a_clicked_tail_is_shown, open_first(s))
-{
-    hands(s, "key PageDown PageDown; lacks section.tail;" // the breath
-             "click tail(tail,0.8); is active.name sway; finds section.tail;"
-             "key PageDown; click tail(tail,0.8); is active.name up; is steps 0"); // bent by this one, too
-}
+WALK(test_a_clicked_tail_is_shown, open_first(s),
+     "key PageDown PageDown; lacks section.tail;" // the breath
+     "click tail(tail,0.8); is active.name sway; finds section.tail;"
+     "key PageDown; click tail(tail,0.8); is active.name up; is steps 0") // bent by this one, too
 
 /// Without splines there is something to begin with.
 WALK(test_an_empty_scene_is_not_an_empty_inspector, panel_open(s, "{'frames': [0, 96]}", 1280, 720),
