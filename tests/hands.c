@@ -41,6 +41,12 @@ static double number_in(const struct played *step, const char *text)
     return value;
 }
 
+/// The whole number that is the i-th word, if there is one.
+static int times(const struct played *step, int i, int otherwise)
+{
+    return step->word[i] ? (int)number_in(step, step->word[i]) : otherwise;
+}
+
 /// The text behind one of its words.
 static const char *behind(const struct played *step, const char *word)
 {
@@ -85,8 +91,7 @@ static float way(const struct played *step, const char *text)
 /// By the words from the i-th on.
 static void drag(const struct played *step, int i)
 {
-    session_drag(step->s, way(step, word(step, i)), way(step, word(step, i + 1)),
-                 step->word[i + 2] ? (int)number_in(step, step->word[i + 2]) : 4);
+    session_drag(step->s, way(step, word(step, i)), way(step, word(step, i + 1)), times(step, i + 2, 4));
 }
 
 /// "Ctrl+Shift+" before a name; moves on to the name.
@@ -119,9 +124,9 @@ static void keys(const struct played *step)
 {
     for (int i = 1; i < step->count; i++) {
         const char *star = strchr(step->word[i], '*'), *name = star ? star + 1 : step->word[i];
-        const int times = star ? atoi(step->word[i]) : 1;
+        const int often = star ? atoi(step->word[i]) : 1;
         const unsigned mods = modifiers(&name);
-        for (int n = 0; n < times; n++) session_key(step->s, key_of(step, name), mods);
+        for (int n = 0; n < often; n++) session_key(step->s, key_of(step, name), mods);
     }
 }
 
@@ -129,9 +134,10 @@ static void keys(const struct played *step)
 static void tab(const struct played *step)
 {
     const struct ui *ui = inspector_of(step->s->editor);
-    for (int i = 0; i < UI_MAX_FOCUS && (!ui->focus || ui->focus != panel_id(step->s, word(step, 1))); i++)
+    for (int i = 0; !ui->focus || ui->focus != panel_id(step->s, word(step, 1)); i++) {
+        if (i == UI_MAX_FOCUS) WRONG(step, "%s", "Tab does not reach it");
         session_key(step->s, KEY_TAB, 0);
-    if (!ui->focus || ui->focus != panel_id(step->s, word(step, 1))) WRONG(step, "%s", "Tab does not reach it");
+    }
 }
 
 /// Clicks on a text, wherever it is drawn.
@@ -248,10 +254,9 @@ static bool does(const struct played *step)
         panel_type(s, behind(step, word(step, 1)));
         session_key(s, KEY_ENTER, 0);
     } else if (IS("wheel")) {
-        for (int i = step->word[2] ? (int)number_in(step, step->word[2]) : 1; i > 0; i--)
-            session_wheel(s, (float)number_in(step, word(step, 1)));
+        for (int i = times(step, 2, 1); i > 0; i--) session_wheel(s, (float)number_in(step, word(step, 1)));
     } else if (IS("wait")) {
-        for (int i = step->word[1] ? (int)number_in(step, step->word[1]) : 1; i > 0; i--) session_frame(s);
+        for (int i = times(step, 1, 1); i > 0; i--) session_frame(s);
     } else if (IS("pass")) {
         editor_advance(s->editor, number_in(step, word(step, 1)));
     } else if (IS("seek")) {
