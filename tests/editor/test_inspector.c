@@ -313,6 +313,7 @@ WALK(test_channels, panel_open(s, tail, 1280, 1600),
      "click part.displacement; is rigs.0.channels.0.of displacement;"
      "click feed.0; click item.walk; is rigs.0.channels.0.spline walk; is active.name walk;"
      "click channel.add; is rigs.0.channels.# 2; is rigs.0.channels.1.spline walk; is channel 1;"
+     "click axis.1; click item.nod; is rigs.0.channels.1.axis nod; is rigs.0.channels.1.gain 10;" // as nods have it
      "click channel.0; click channel.delete; is rigs.0.channels.# 1; is rigs.0.channels.0.spline walk;"
      "click channel.delete; is rigs.0.channels.# 0; lacks gain; undone")
 
