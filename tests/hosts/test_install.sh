@@ -29,7 +29,7 @@ makefile() {
     # Two clones build the same bytes, also where a name needs quotes.
     for clone in one "it's another"; do
         mkdir "$scratch/$clone" && cp -r Makefile include src tools "$scratch/$clone"
-        expect 0 "an object is built in a folder called $clone" env CCACHE_DISABLE=1 make -C "$scratch/$clone" SETS= build/obj/src/spline/batch.o build/obj/build.o
+        expect 0 "an object is built in a folder called $clone" env -u MAKEFLAGS CCACHE_DISABLE=1 make -C "$scratch/$clone" B=build SETS= build/obj/src/spline/batch.o build/obj/build.o
     done
     holds "it has the same bytes in both" diff -r "$scratch/one/build" "$scratch/it's another/build"
     holds "and does not name its folder" not grep -aq "$scratch" "$scratch/one/build/obj/src/spline/batch.o"

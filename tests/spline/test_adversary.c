@@ -26,8 +26,8 @@ static void judge(wiggly_solver *solver, const char *what, int which, struct tal
     adversary_print(stderr, &problem);
 }
 
-/// A complaint about what is easy is no more than a nuisance: of the worst kind one in fifty may have it, of all together one in a
-/// hundred (make adversary).
+/// A complaint about what is easy is no more than a nuisance: of a kind one in fifty may have it, of poles that alias to one, which are all
+/// but singular, three; of all together one in a hundred (make adversary).
 TEST(problems_of_every_kind)
 {
     static const struct {
@@ -59,7 +59,8 @@ TEST(problems_of_every_kind)
             if (seed % 4 == 3) adversary_hold(&problem, (uint64_t)seed);
             judge(*state, rows[r].what, seed, &tally);
         }
-        if (tally.faults || tally.needless > 1 + problems / 50)
+        const int most = (rows[r].kind == ADVERSARY_ALIAS ? 3 : 1) * problems / 50;
+        if (tally.faults || tally.needless > 1 + most)
             fail_msg("%s: %d of %d problems are wrong, %d called INEXACT needlessly", rows[r].what, tally.faults,
                      problems, tally.needless);
     }
