@@ -6,8 +6,7 @@ CC=${CC:-gcc}
 # --- the Makefile; how this very suite is built says nothing here, so that once is enough
 
 makefile() {
-    local MAKEFLAGS B DEBUG SANITIZE line clone before folder theirs="$scratch/their tree"
-    unset MAKEFLAGS B DEBUG SANITIZE
+    local line clone before folder theirs="$scratch/their tree"
     # How src/spline/batch.c would be compiled, and wiggly linked.
     compile_line() { make --no-print-directory -n V=1 B="$scratch/none" "$@" 2>&1 | grep -- '-c src/spline/batch.c'; }
     after() { # <what> <earlier> <later> <line>
@@ -29,7 +28,7 @@ makefile() {
     # Two clones build the same bytes, also where a name needs quotes.
     for clone in one "it's another"; do
         mkdir "$scratch/$clone" && cp -r Makefile include src tools "$scratch/$clone"
-        expect 0 "an object is built in a folder called $clone" env -u MAKEFLAGS CCACHE_DISABLE=1 make -C "$scratch/$clone" B=build SETS= build/obj/src/spline/batch.o build/obj/build.o
+        expect 0 "an object is built in a folder called $clone" env CCACHE_DISABLE=1 make -C "$scratch/$clone" SETS= build/obj/src/spline/batch.o build/obj/build.o
     done
     holds "it has the same bytes in both" diff -r "$scratch/one/build" "$scratch/it's another/build"
     holds "and does not name its folder" not grep -aq "$scratch" "$scratch/one/build/obj/src/spline/batch.o"
@@ -53,7 +52,12 @@ makefile() {
     holds "what is not built, or was changed since, is built elsewhere" [ "${folder#"$scratch"/wiggly-install.}" != "$folder" ]
 }
 built=$B
-[ -n "${SANITIZE:-}" ] || makefile
+unset MAKEFLAGS
+if [ -z "${SANITIZE:-}" ]; then # a local variable would not hide those of the environment
+    unset B DEBUG
+    makefile
+    export B=$built
+fi
 tells 0 "licences of what is built in are printed" "part of this program" wiggly --licenses
 
 # --- make install
