@@ -6,7 +6,6 @@
 #include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -625,6 +624,7 @@ static void dialog_match(struct dialog *dialog)
         snprintf(dialog->listed, sizeof dialog->listed, "%s", folder);
         const int count = app->list ? app->list(app->user, at, dialog->names, DIALOG_MAX_NAMES) : 0;
         dialog->name_count = count > 0 ? count : 0;
+        if (!realpath(at, dialog->folder)) dialog->folder[0] = '\0';
     }
     dialog->match_count = 0;
     dialog->choice = -1;
@@ -838,12 +838,10 @@ static void build_list(struct dialogs *dialogs)
             }
         }
         if (row == 0 && dialog->match_count == 0) {
-            char folder[PATH_MAX], text[PATH_MAX + 32] = "Nothing matches.";
-            const bool saves = dialog->kind == DIALOG_SAVE_AS, in_page = dialog->app->in_page;
-            const bool exists = saves && realpath(dialog->listed[0] ? dialog->listed : ".", folder);
-            if (saves)
-                snprintf(text, sizeof text, exists ? "A new file in %s." : "There is no such folder.",
-                         in_page ? "this browser" : folder);
+            char text[PATH_MAX + 32] = "Nothing matches.";
+            if (dialog->kind == DIALOG_SAVE_AS)
+                snprintf(text, sizeof text, dialog->folder[0] ? "A new file in %s." : "There is no such folder.",
+                         dialog->app->in_page ? "this browser" : dialog->folder);
             ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 12, r.h}, text, theme()->text_dim);
         }
     }

@@ -4,6 +4,7 @@
 
 #include "editor/core/command.h"
 #include "editor/dialogs/dialogs.h"
+#include <limits.h>
 
 /// The table of editor/commands.c.
 struct command_list {
@@ -51,7 +52,8 @@ struct dialog {
     bool saving;               ///< DIALOG_CHANGED: the user asked to save
     bool skip_text;            ///< ignore the text event of an answer's letter
     char error[DIALOG_ERROR_SIZE];
-    char listed[UI_TEXT_SIZE]; ///< folder of `names`
+    char listed[UI_TEXT_SIZE]; ///< folder of `names`, as typed
+    char folder[PATH_MAX];     ///< and in full; "": there is none
     char names[DIALOG_MAX_NAMES][DIALOG_NAME_SIZE];
     int name_count; ///< -1: not listed
     struct dialog_recent recent[DIALOG_MAX_RECENT];
