@@ -223,7 +223,7 @@ docs/app.md~four knots~include/wiggly/more.h~WIGGLY_FEWEST_EXPLAINED 4
 docs/keys.md~75 … 300 %~src/app/state.h~UI_SCALE_MOST 3.0
 docs/keys.md~0.1 … 4×~src/editor/core/view.c~{0.1, 0.25, 0.5, 1, 2, 4}
 docs/keys.md~by 1 % of the view~src/editor/stage/overlays.c~NUDGE = 0.01;
-docs/keys.md~1 % of the visible values~src/editor/curves/knots.c~0.01 * hundredths * (core->view.plot.value1 - core->view.plot.value0)
+docs/keys.md~1 % of the visible values~src/editor/curves/knots.c~0.01 * hundredths * plot_height(core)
 docs/characters.md~the lowest twentieth of the height~src/commands/simulate.c~pin below a height (1/20 of the mesh)
 docs/characters.md~five knots at most~src/analysis/analysis.h~KNOTS_MOST = 5
 docs/export.md~11 bits~src/export/usda.c~with 11 bits

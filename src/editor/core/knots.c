@@ -274,7 +274,7 @@ void slopes_set(struct core *core, int how)
     };
     const uint64_t merge = changes[how].merges ? core_merge_key(core, changes[how].merges) : 0;
     const bool aims = how == SLOPES_FLAT || how == SLOPES_SMOOTH;
-    const double more = changes[how].slope * (core->view.plot.value1 - core->view.plot.value0);
+    const double more = changes[how].slope * plot_height(core);
     if (selected_count(core) == 0 || !core_step(core, changes[how].label, merge)) return;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         const struct knot *before = knot_at(document, at);
@@ -288,8 +288,7 @@ void slopes_set(struct core *core, int how)
         if (!(before->stiffness > 0)) knot.stiffness = FIRM;
         if (aims) knot.slope = how == SLOPES_FLAT ? 0 : catmull_rom(core, at);
         if (aims || more != 0 || fresh)
-            knot.slope =
-                core_round(knot.slope + more, SLOPE_RESOLUTION * (core->view.plot.value1 - core->view.plot.value0));
+            knot.slope = core_round(knot.slope + more, SLOPE_RESOLUTION * plot_height(core));
         knot.stiffness = fmin(fmax(knot.stiffness * changes[how].stiffness, 1e-3), 1e9);
         core_put_knot(core, at.spline, &knot);
     }

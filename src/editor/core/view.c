@@ -122,7 +122,7 @@ void presenter_toggle(struct core *core, int argument)
     core_layout(core);
     const char *leave = core->input.finger ? "Touch an edge for panels" : "Esc leaves, Tab shows the panels.";
     core_message(core, false, "%s", core->view.presenter.on ? leave : "");
-    core->message.seconds_left = LEAVING_SHOWN;
+    core->message.seconds_left = core->view.presenter.on ? LEAVING_SHOWN : 0;
 }
 
 bool presenter_event(struct core *core, const struct event *event)

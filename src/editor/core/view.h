@@ -4,6 +4,9 @@
 
 #include "editor/core/state.h"
 
+/// The values in sight of the curves.
+static inline double plot_height(const struct core *core) { return core->view.plot.value1 - core->view.plot.value0; }
+
 /// The topmost panel at a point.
 enum panel core_panel_at(const struct core *core, float x, float y);
 /// Sets the stage's share of the height and the inspector's width.

@@ -33,10 +33,7 @@ double curves_pixels_per_frame(const struct core *core)
     return core->view.layout.plot.w / (core->view.plot.frame1 - core->view.plot.frame0);
 }
 
-double curves_pixels_per_value(const struct core *core)
-{
-    return core->view.layout.plot.h / (core->view.plot.value1 - core->view.plot.value0);
-}
+double curves_pixels_per_value(const struct core *core) { return core->view.layout.plot.h / plot_height(core); }
 
 float curves_x(const struct core *core, double frame)
 {
@@ -324,6 +321,12 @@ static bool is_measured(const struct curves *curves, const struct core *core)
     return core->input.drag.owner && core->input.drag.room == curves;
 }
 
+/// Whether playback passes from the scene's end to its start.
+static bool seam_is_played(const struct core *core)
+{
+    return core->view.playback.playing && core->view.on[SWITCH_LOOP] && !playback_is_part(core);
+}
+
 void follow_edits(struct curves *curves, struct core *core)
 {
     struct following *following = &curves->following;
@@ -331,7 +334,10 @@ void follow_edits(struct curves *curves, struct core *core)
     const struct document *document = core->document;
     const bool has_changed = curves->followed != document->edits;
     curves->followed = document->edits;
-    if (has_changed) curves->open = core_open_curves(core);
+    if (seam_is_played(core) && curves->open_of != document->edits) {
+        curves->open = core_open_curves(core);
+        curves->open_of = document->edits;
+    }
     if (!edited->selection && edited->count == 0 && !has_changed) return;
 
     // Frames and values of everything edited since the last frame: selected knots with the curve between their neighbours; of splines only
@@ -447,8 +453,7 @@ static bool seam_place(const struct curves *curves, const struct core *core, flo
     const struct rect *plot = &core->view.layout.plot;
     xy[0] = curves_x(core, core->document->last_frame);
     xy[1] = plot->y + EDGE;
-    return core->view.playback.playing && core->view.on[SWITCH_LOOP] && !playback_is_part(core) && curves->open > 0 &&
-           rect_contains(*plot, xy[0], xy[1]);
+    return seam_is_played(core) && curves->open > 0 && rect_contains(*plot, xy[0], xy[1]);
 }
 
 static bool find_seam(void *room, const struct core *core, const struct target *target, float xy[2])

@@ -100,8 +100,7 @@ static void apply_slope(void *of, struct core *core)
     across = curves->knot_drag.handle ? fmax(across, 2) : fmin(across, -2);
     double seconds = across / curves_pixels_per_frame(core) / core->document->fps;
     struct knot turned = *knot;
-    turned.slope = core_round(-down / curves_pixels_per_value(core) / seconds,
-                              SLOPE_RESOLUTION * (core->view.plot.value1 - core->view.plot.value0));
+    turned.slope = core_round(-down / curves_pixels_per_value(core) / seconds, SLOPE_RESOLUTION * plot_height(core));
     double length = handle_length(knot->stiffness), longer = maths_hypot(across, down) - length;
     if (fabs(longer) > LENGTH_SLACK) {
         turned.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
@@ -239,7 +238,7 @@ enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
 
 void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths)
 {
-    const double up = 0.01 * hundredths * (core->view.plot.value1 - core->view.plot.value0);
+    const double up = 0.01 * hundredths * plot_height(core);
     struct moving moving = {curves, core, frames, up, 0.01 * fabs(up)};
     enum room room = ROOM_FREE;
     char why[STOPPED_SIZE] = "";
@@ -388,9 +387,7 @@ static struct knot scaled_knot(const void *how, const struct original *original)
         to.value = core_round(pivot + by.value * (original->value - pivot), resolution);
     }
     to.phase *= by.time < 0 ? -by.value : by.value; // time runs backwards, so the swing does
-    if (steeper != 1)
-        to.slope = core_round(original->knot.slope * steeper,
-                              FINE_SLOPE * (core->view.plot.value1 - core->view.plot.value0));
+    if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, FINE_SLOPE * plot_height(core));
     return to;
 }
 

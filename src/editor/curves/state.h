@@ -134,7 +134,8 @@ struct ghost {
 struct curves {
     struct following following;
     uint64_t followed; ///< edits of the document when last looked at
-    int open;          ///< curves that do not end as they start
+    int open;          ///< curves that do not end as they start, counted while that can be seen
+    uint64_t open_of;  ///< edits of the document as they were counted
     struct dope_sheet sheet;
     struct selection before_box; ///< the selection before a box was drawn
     struct knot_drag knot_drag;
