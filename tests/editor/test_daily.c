@@ -16,6 +16,12 @@ static const char open_scene[] = "{\"frames\": [0, 100], \"splines\": [{\"name\"
                                  "\"damping\": 0.1, \"knots\": [{\"frame\": 0, "
                                  "\"value\": 0}, {\"frame\": 90, \"value\": 1}, {\"frame\": 100, \"value\": 2}]}]}";
 
+static const char pinned[] = "{'frames': [0, 100], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, "
+                             "'knots': [<0 0>, <40 1>]}], 'rigs': "
+                             "[{'type': 'tail', 'name': 'tail', 'channels': [{'spline': 'sway', 'axis': 'side', "
+                             "'gain': 9, 'lag': 6}], 'pins': "
+                             "[{'joint': 9, 'frame': 60, 'to': [0.3, 0.5, 0.1]}]}]}";
+
 /// What the status line shows is where the playhead is, so that the next edit moves nothing.
 SESSION_TEST(test_pause_stops_on_a_frame, panel_open(s, scene, 1280, 720))
 {
@@ -242,19 +248,32 @@ SESSION_TEST(test_fields_calculate, panel_open(s, scene, 1280, 720))
     }
 }
 
+static void right_click(struct session *s, const char *target)
+{
+    session_point(s, target);
+    session_press(s, BUTTON_RIGHT, 1);
+    session_release(s, BUTTON_RIGHT);
+}
+
+/// The menu acts on what was clicked, whatever was selected before: on the knot, not the pin; on the pin, not the knot.
+SESSION_TEST(test_menu_acts_on_what_is_under_it, panel_open(s, pinned, 1280, 720))
+{
+    session_click(s, "pintime(tail,0)");
+    right_click(s, "knot(sway,1)");
+    hands(s, "key Enter; is rigs.0.pins.# 1; is splines.0.knots.# 1; key Ctrl+Z; click knot(sway,1)");
+    right_click(s, "pintime(tail,0)");
+    hands(s, "key Enter; is rigs.0.pins.# nothing; is splines.0.knots.# 2");
+}
+
 /// A right-click lists what can be done there; Enter runs the first, and typing goes on in the palette.
 SESSION_TEST(test_right_click_is_a_menu, panel_open(s, scene, 1280, 720))
 {
-    session_point(s, "knot(sway,1)");
-    session_press(s, BUTTON_RIGHT, 1);
-    session_release(s, BUTTON_RIGHT);
+    right_click(s, "knot(sway,1)");
     assert_int_equal(lookup_of(s->editor)->kind, LOOKUP_MENU);
     assert_int_equal(selected(s->editor), 1);
     hands(s, "shows Delete the selection; shows Scale the selection; hides Go to the start; hides Undo; key Enter");
     assert_int_equal(s->document->splines[0]->knot_count, 1);
-    session_point(s, "ruler(50)");
-    session_press(s, BUTTON_RIGHT, 1);
-    session_release(s, BUTTON_RIGHT);
+    right_click(s, "ruler(50)");
     hands(s, "shows Play from here; type undo; key Enter");
     assert_int_equal(s->document->splines[0]->knot_count, 2);
     session_point(s, "stage(0.5,0.5)");

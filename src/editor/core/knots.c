@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void select_only(struct core *core, unsigned id)
+void core_select_only(struct core *core, unsigned id)
 {
     pins_clear(core);
     selection_clear(&core->focus.selection);
@@ -28,7 +28,7 @@ static void insert_at(struct core *core, const struct knot *knot)
         at = spline_find_knot(document, core_active_spline(core), sample);
     }
     if (at < 0) return;
-    select_only(core, core_active_spline(core)->knots[at].id);
+    core_select_only(core, core_active_spline(core)->knots[at].id);
     core_edited(core, -1);
 }
 
@@ -189,7 +189,7 @@ const struct knot *core_select_neighbour(struct core *core, int direction)
     int next = single + direction;
     if (single < 0) next = beside(core->document, spline, core->view.playback.position, direction);
     if (next < 0 || next >= spline->knot_count) return NULL;
-    select_only(core, spline->knots[next].id);
+    core_select_only(core, spline->knots[next].id);
     return &spline->knots[next];
 }
 
@@ -204,7 +204,7 @@ const struct knot *core_visit_neighbour(struct core *core, int direction)
         return NULL;
     }
     const struct knot *knot = &spline->knots[next];
-    select_only(core, knot->id);
+    core_select_only(core, knot->id);
     playback_seek(core, document_frame(document, document_sample(document, knot->frame)));
     return knot;
 }

@@ -10,6 +10,8 @@ void core_insert_knot(struct core *core, double frame, double value, bool snap);
 void core_insert_on_curve(struct core *core, double frame, bool snap, enum holds holds);
 /// Deletes the selected pin, else the selected knots.
 void core_delete(struct core *core, int unused);
+/// Selects a knot and nothing else, not even a pin.
+void core_select_only(struct core *core, unsigned id);
 /// Selects the active spline's knots, or those of all shown splines.
 void core_select_all(struct core *core, int all_splines);
 /// Selects the neighbour of the selected knot, or of the playhead if not exactly one is selected; NULL if none.

@@ -9,6 +9,7 @@
 #include "editor/core/view.h"
 #include "editor/curves/state.h"
 #include "maths/maths.h"
+#include "scene/pins.h"
 #include "scene/warnings.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -651,10 +652,14 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
     const struct hover hover = curves_hover(curves, core, event->x, event->y);
     if (event->button == BUTTON_RIGHT) { // what the menu acts on
         core->input.hover = hover;
-        if (hover.thing == &thing_knot && !selection_has(&core->focus.selection, hover.knot)) {
-            core_activate(core, hover.spline);
-            selection_clear(&core->focus.selection);
-            selection_set(&core->focus.selection, hover.knot, true);
+        if (hover.thing == &thing_knot) {
+            core_turn_to(core, hover.spline);
+            pins_clear(core);
+            if (!selection_has(&core->focus.selection, hover.knot)) core_select_only(core, hover.knot);
+        }
+        if (hover.thing == &thing_pin_time) {
+            const struct rig *rig = core->document->rigs[hover.rig];
+            pins_visit(core, &rig->pins[pins_find_id(rig, hover.pin)]);
         }
         if (hover.thing == &thing_curve) core_choose(core, hover.spline);
         return;

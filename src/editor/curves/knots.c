@@ -163,8 +163,7 @@ static void press_knot(void *room, struct core *core, const struct hover *hover,
         selected_activate(core);
         if (selected) return;
     } else if (!selected) {
-        selection_clear(&core->focus.selection);
-        selection_set(&core->focus.selection, id, true);
+        core_select_only(core, id);
     }
     drag_begin(core, &owner, curves, NULL, event);
     core->input.drag.knot = id;
