@@ -182,7 +182,7 @@ SESSION_TEST(test_open_curves_are_closed, panel_open(s, open_scene, 1280, 720))
     session_frame(s);
     const char *before = session_saved(s);
     session_click(s, "seam()");
-    assert_said(s->editor, "1 curve closed");
+    assert_said(s->editor, "Closed 1 curve");
     assert_int_equal(spline_start(s->document->splines[0]), WIGGLY_LOOP);
     assert_int_equal(s->document->splines[0]->knot_count, 2); // that on the last frame repeats the first
     assert_one_step(s, before);

@@ -43,7 +43,7 @@ void core_request(struct core *core, const struct request *request);
 /// A question to ask after the event; the caller fills in its text.
 struct question *core_ask(struct core *core, const struct answer *answers, int count,
                           void (*answered)(void *core, int answer));
-/// Takes the home folder, which nobody there knows, out of a page's sentence.
+/// In a page, drops the browser's own home folder from a sentence: no user knows it.
 void core_drop_home(const struct core *core, char *text);
 /// Shows a message in the status line: an error until the next key or click, others for some seconds.
 void core_message(struct core *core, bool is_error, const char *format, ...) __attribute__((format(printf, 3, 4)));

@@ -475,5 +475,5 @@ void core_close_curves(struct core *core, int unused)
         if (!core_set_parameter(core, s, PARAMETER_START, WIGGLY_LOOP)) return;
         count++;
     }
-    core_message(core, false, "%d curve%s closed: the end meets the start.", count, count == 1 ? "" : "s");
+    core_message(core, false, "Closed %d curve%s: the end now meets the start.", count, count == 1 ? "" : "s");
 }
