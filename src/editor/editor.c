@@ -32,7 +32,7 @@ struct editor *editor_create(const struct editor_app *app)
     editor->inspector = editor->core.inspector = inspector_create(&editor->core);
     editor->core.show_clicked = inspector_show_clicked;
     editor->dialogs = dialogs_create(&editor->core, commands, command_count);
-    editor->core.view.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
+    editor->core.view.layout.stage_share = 400.0f / (720 - theme_row());
     editor->core.view.layout.inspector_width = THEME_INSPECTOR_WIDTH;
     editor->core.view.plot = (struct plotted){0, 120, -1, 1};
     editor->core.view.camera = camera_default();

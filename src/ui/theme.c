@@ -75,6 +75,12 @@ enum theme_kind theme_in_use(void) { return in_use; }
 
 void theme_use(enum theme_kind kind) { in_use = kind; }
 
+static float row = 24;
+
+float theme_row(void) { return row; }
+
+void theme_fit_fingers(bool fingers) { row = fingers ? 32 : 24; }
+
 int theme_find(const char *name)
 {
     for (int i = 0; i < THEME_COUNT; i++) {

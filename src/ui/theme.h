@@ -3,6 +3,7 @@
 #ifndef UI_THEME_H
 #define UI_THEME_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /// Assigned in turn. Any two differ by a ΔE2000 of at least 10 under each of the three kinds of colour blindness.
@@ -62,7 +63,11 @@ uint32_t theme_spline_rgb(int index);
 #define THEME_TEXT_NORMAL 13.0f
 #define THEME_TEXT_TITLE 18.0f
 
-enum { THEME_INSPECTOR_WIDTH = 280, THEME_STATUS_HEIGHT = 24 };
+enum { THEME_INSPECTOR_WIDTH = 280 };
+
+/// Height in pixels of the panels' rows and icons and of the status line: 24, or 32 on a phone, where fingers press them.
+float theme_row(void);
+void theme_fit_fingers(bool fingers);
 
 /// The colour of a movement z = re + j·im, amplitude |z| ≤ 1, phase lead arg z, in linear RGB. Phases lie on a tilted circle in Oklab: hue
 /// is uniform, lightness varies by 0.22 with its maximum at 65°, between yellow (in step) and cyan (a quarter ahead). The tilt lets phases

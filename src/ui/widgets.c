@@ -844,7 +844,7 @@ int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, 
     if (!ui_popup_is_open(ui, name)) return -1;
     const bool is_long = count > MAX_ROWS, searches = is_long || ui->popup.filter.typed[0];
     const enum fit least = least_fit(ui, items, count);
-    ui_popup_begin(ui, ui->popup.anchor.w, (float)(UI_ROW * ((is_long ? MAX_ROWS : count) + searches)));
+    ui_popup_begin(ui, ui->popup.anchor.w, UI_ROW * (float)((is_long ? MAX_ROWS : count) + searches));
     struct rect area = ui->scroll_area;
     if (searches) { // the typed text or a hint, above the rows
         const char *typed = ui->popup.filter.typed;

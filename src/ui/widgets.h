@@ -13,9 +13,9 @@
 #include "base/file.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
+#include "ui/theme.h"
 
 enum {
-    UI_ROW = 24,
     UI_PAD = 12,        ///< from the panel's edge to its content
     UI_LABEL = 84,      ///< width of the label column
     UI_GAP = 8,         ///< between things in a row
@@ -24,6 +24,8 @@ enum {
     UI_TEXT_SIZE = PATH_LIMIT,
     UI_NAME_SIZE = 1024, ///< bytes of the name of a widget for a spline or a bone
 };
+
+#define UI_ROW theme_row()
 
 /// What the pointer is over, for the cursor.
 enum ui_over { UI_OVER_NOTHING, UI_OVER_NUMBER, UI_OVER_TEXT };

@@ -337,3 +337,21 @@ SESSION_TEST(test_views, panel_open(s, scene, 1280, 720))
             assert_near((eye[k] - camera->target[k]) / camera->distance, rows[i].eye[k], 0.08);
     }
 }
+
+/// A still knot's row is the value that it comes to rest at.
+WALK(test_still_knot_shows_its_equilibrium, panel_open(s, scene, 1280, 720),
+     "more off; lacks equilibrium; click knot(sway,1); lacks equilibrium; key Shift+P; enter equilibrium 0.25; "
+     "sway.equilibrium 0.25; label Set equilibrium; finds follow.equilibrium")
+
+/// On a phone, rows are as high as a finger needs.
+SESSION_TEST(test_rows_of_a_phone, panel_open(s, scene, 390, 844))
+{
+    for (int wide = 0; wide < 2; wide++) {
+        editor_resize(s->editor, wide ? 1280 : 390, 844, 1);
+        session_frame(s);
+        session_point(s, "widget(frequency)");
+        const float above = s->y;
+        session_point(s, "widget(damping)");
+        assert_near(s->y - above, wide ? 24 : 32, 0);
+    }
+}

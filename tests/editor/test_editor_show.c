@@ -125,7 +125,7 @@ TAIL_TEST(test_playing_redraws_the_playhead_only)
         const struct draw_command *command = &list->commands[i];
         if (is_in(before, count, command->hash)) continue;
         changed++;
-        assert_true(command->bounds.y >= 720 - THEME_STATUS_HEIGHT || command->bounds.w <= 48);
+        assert_true(command->bounds.y >= 720 - theme_row() || command->bounds.w <= 48);
     }
     assert_in_range(changed, 1, 6);
     free(before);

@@ -100,7 +100,7 @@ TEST(a_value_comes_back)
                  "'knots': [<24 2.125>, %s]}]}",
                  row->knot);
         session_open(s, scene);
-        hands(s, "click knot(sway,1); %s shows Comes to rest at the equilibrium; sway.1.still 1; sway@48 2",
+        hands(s, "click knot(sway,1); %s finds equilibrium; finds follow.equilibrium; sway.1.still 1; sway@48 2",
               makes_still);
         assert_loads_again(s->document);
         if (row->high < INFINITY) {

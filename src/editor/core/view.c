@@ -19,8 +19,9 @@ static float eased(float share) { return share * share * (3 - 2 * share); }
 void core_layout(struct core *core)
 {
     struct layout *l = &core->view.layout;
-    const float all = fmaxf(l->window.h - THEME_STATUS_HEIGHT, 2);
     const bool upright = l->window.w < UPRIGHT && l->window.h > l->window.w;
+    theme_fit_fingers(upright);
+    const float all = fmaxf(l->window.h - theme_row(), 2);
     l->upright = upright;
     const float most = upright ? MAX_INSPECTOR : fminf(MAX_INSPECTOR, fmaxf(l->window.w - MIN_LEFT, 0));
     const float size = clamped(l->inspector_width, MIN_INSPECTOR, most);
@@ -30,7 +31,7 @@ void core_layout(struct core *core)
     l->stage = (struct rect){0, 0, left, stage};
     l->curves = (struct rect){0, stage, left, fmaxf(height - stage, 1)};
     l->inspector = upright ? (struct rect){0, height, left, below} : (struct rect){left, 0, right, height};
-    l->status = (struct rect){0, all, l->window.w, THEME_STATUS_HEIGHT};
+    l->status = (struct rect){0, all, l->window.w, theme_row()};
     float width = fmaxf(left - AXIS_WIDTH - LABEL_WIDTH, 16);
     float sheet = fminf(l->sheet_height, fmaxf(l->curves.h - RULER_HEIGHT - 17, 0));
     float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1 - sheet, 16);

@@ -355,7 +355,7 @@ static void build_curve(struct inspector *in, enum angle_kind kind, const struct
 
 float inspector_highest_curve(const struct inspector *in, enum angle_kind kind)
 {
-    static const float heights[] = {[ANGLES_ONE] = 0, [ANGLES_RAMP] = HEIGHT, [ANGLES_EACH] = HEIGHT + UI_ROW};
+    const float heights[] = {[ANGLES_ONE] = 0, [ANGLES_RAMP] = HEIGHT, [ANGLES_EACH] = HEIGHT + UI_ROW};
     const struct document *document = in->core->document;
     float highest = 0;
     for (int r = 0; in->core->view.on[SWITCH_MORE] && r < document->rig_count; r++) {

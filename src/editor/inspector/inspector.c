@@ -339,7 +339,7 @@ int inspector_icons(struct inspector *in, struct rect r, const struct row *rows,
 {
     int pressed = -1;
     for (int i = 0; i < count; i++) {
-        const struct rect icon = {r.x - 2 + (float)(i * (INSPECTOR_ICON + 6)), r.y, INSPECTOR_ICON, r.h};
+        const struct rect icon = {r.x - 2 + (float)i * (INSPECTOR_ICON + 6), r.y, INSPECTOR_ICON, r.h};
         if (inspector_icon(in, icon, &rows[i])) pressed = i;
     }
     return pressed;
@@ -800,7 +800,7 @@ static void build_field(struct inspector *in, int field, bool one)
     if (field == FIELD_SLOPE && (one ? any_still : !sloped)) idle = one ? "–" : "not all have one";
     if (field == FIELD_STIFFNESS && !sloped) idle = "–";
     if (field == FIELD_VALUE && holds == HOLDS_STILL) {
-        ui_label(ui, ui_row(ui, UI_ROW), "Comes to rest at the equilibrium", theme()->text_dim);
+        inspector_parameter(in, PARAMETER_EQUILIBRIUM); // where it comes to rest
     } else if (idle) {
         inspector_idle(in, knot_rows[field].ui.label, idle);
     } else if (field != FIELD_SLOPE || !one) {
@@ -827,7 +827,7 @@ const char *inspector_knot_title(struct inspector *in)
     return in->knot_title;
 }
 
-/// Has the same height for every selection, so that nothing below moves.
+/// Has the same height for nearly every selection, so that nothing below moves.
 void inspector_knot(struct inspector *in)
 {
     struct ui *ui = &in->ui;
@@ -873,7 +873,7 @@ void inspector_knot(struct inspector *in)
         if (pressed == 1) core_visit_neighbour(in->core, 1);
         if (pressed == 2) core_select_all(in->core, false);
     }
-    ui->y = end;
+    ui->y = fmaxf(ui->y, end);
 }
 
 enum { MAX_PINS = 8 }; ///< listed at once

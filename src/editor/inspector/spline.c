@@ -150,7 +150,7 @@ void inspector_splines(struct inspector *in)
     const int row = (int)floorf((ui->pointer_y - top) / UI_ROW); // where a dragged row would go
     const int to = first + (row < 0 ? 0 : row >= rows ? rows - 1 : row);
     if (from >= 0 && to != from && ui->pass == UI_PASS_DRAW) {
-        const float y = top + (float)((to - first + (to > from ? 1 : 0)) * UI_ROW);
+        const float y = top + (float)(to - first + (to > from ? 1 : 0)) * UI_ROW;
         drawlist_rect(ui->list, (struct rect){ui->area.x + UI_PAD, y - 1, ui->area.w - 2 * UI_PAD, 2},
                       theme()->accent);
     }
@@ -636,7 +636,8 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
 
     struct rect r = ui_row(&in->ui, UI_ROW);
     const bool follows = param_follows(&spline->parameter[parameter]);
-    const bool may_follow = row->kind == PARAMETER_TRACK && (in->core->view.on[SWITCH_MORE] || follows);
+    const bool may_follow = row->kind == PARAMETER_TRACK &&
+                            (in->core->view.on[SWITCH_MORE] || follows || parameter == PARAMETER_EQUILIBRIUM);
     if (may_follow) r.w -= UI_ROW + 2;
     const struct param *param = &spline->parameter[parameter];
     const struct rect field = follows ? inspector_label(in, r, row->name) : r;

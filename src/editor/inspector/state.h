@@ -127,7 +127,7 @@ bool inspector_toggle(struct inspector *in, struct rect r, const struct row *row
 /// The line that ui_line_begin() opened; true once it is typed.
 bool inspector_line(struct inspector *in, struct rect r, const struct row *row);
 
-enum { INSPECTOR_ICON = 24 };
+#define INSPECTOR_ICON theme_row() ///< width of an icon button
 /// Icon buttons from left to right; the pressed one, or -1.
 int inspector_icons(struct inspector *in, struct rect r, const struct row *rows, int count);
 
