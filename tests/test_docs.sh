@@ -174,7 +174,9 @@ unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep
 holds "every command that is named is there" [ -z "$unknown" ]
 
 # shellcheck disable=SC2086
-while read -r line; do bash -c "$line"; done < <(grep -ohE '`make [^`]*`' $documents | tr -d '`' | grep -vE 'make (models|figures)' | sort -u)
+while read -r line; do bash -c "$line"; done < <(
+    { grep -ohE '`make [^`]*`' $documents | tr -d '`' | grep -vE 'make (models|figures)' && sed -n 's/^ *- run: \(make .*\)/\1/p' .github/workflows/*.yml; } | sort -u
+)
 mapfile -t goals < <(sort -u "$scratch/goals")
 slow=$(quickly '|^web$|compile_commands') # these two ask make once more
 # shellcheck disable=SC2046
@@ -287,3 +289,22 @@ missing=$(
 )
 [ -z "$missing" ] || echo "  no licence, or on no page:" $missing
 holds "every asset has a licence, every picture a page" [ -z "$missing" ]
+
+# --- the hosted page: a workflow publishes it, and README links it as soon as its maintainer has put a name there
+
+workflows=$(echo .github/workflows/*.yml)
+if python3 -c 'import yaml' 2>/dev/null; then
+    # shellcheck disable=SC2086
+    expect 0 "every workflow is YAML, and its actions are pinned" python3 -c '
+import re, sys, yaml
+for path in sys.argv[1:]:
+    for job in yaml.safe_load(open(path))["jobs"].values():
+        for step in job["steps"]:
+            assert "run" in step or re.fullmatch(r"actions/[a-z-]+@[0-9a-f]{40}", step["uses"]), (path, step)' $workflows
+fi
+holds "what is published is what make web makes" \
+    grep -qx " *path: build/$(sed -n 's|.*Page: $(B)/\(.*\)/index.html.*|\1|p' src/platform/web/web.mk)" .github/workflows/pages.yml
+link() { head -n 1 | sed 's/<!--.*-->//' | grep -oE '\]\(https://[^)]*\)'; } # as the first line is shown
+holds "README links no page that has no name" not grep -q NAME <<<"$(link <README.md)"
+sed '1s/^<!-- \(.*\)NAME\(.*\) -->$/\1somebody\2/' README.md >"$scratch/named"
+holds "and the page once it has one" [ -n "$(link <"$scratch/named")" ]
