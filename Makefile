@@ -12,7 +12,7 @@
 #   make web      the app as a web page, in build/web, for any web server; fetches the source of jansson
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
 #   make blender  the extension for Blender with the Python package of every platform that it runs on, a .zip in build; PLATFORMS as above
-#   make blender-proof  measures the extension in each Blender, and writes the table of docs/blender.md; BPY='PYTHON...' with bpy
+#   make blender-proof  measures the extension in each Blender, and writes the table of tests/README.md; BPY='PYTHON...' with bpy
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports, and takes in files of others
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)

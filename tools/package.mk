@@ -16,7 +16,7 @@ blender: wheel
 # Each Blender that there is as a Python module: those of $(BPY), Pythons that have it.
 BPY ?= $(B)/proof/venv/bin/python
 blender-proof: library
-	$(Q)PYTHONPATH=python/src WIGGLY_LIBRARY=$(abspath $(SHARED_LIBRARY)) python3 blender/tests/table.py docs/blender.md $(BPY)
+	$(Q)PYTHONPATH=python/src WIGGLY_LIBRARY=$(abspath $(SHARED_LIBRARY)) python3 blender/tests/table.py tests/README.md $(BPY)
 
 ROOT = $(DESTDIR)$(PREFIX)
 define PLACE_LIBRARY

@@ -1,7 +1,7 @@
 """What the extension promises, as measured by measure.py, as a table with a column for each Blender.
 
-Usage: python table.py docs/blender.md python...          measures with each of these Pythons, and writes the table into the page
-       python table.py --check docs/blender.md python     compares the page with the Blender of this Python
+Usage: python table.py tests/README.md python...          measures with each of these Pythons, and writes the table into the page
+       python table.py --check tests/README.md python     compares the page with the Blender of this Python
 """
 import json
 import math

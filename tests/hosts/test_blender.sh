@@ -37,5 +37,5 @@ for python in $pythons; do
         grep -E '^(not )?ok - |^skip - ' <<<"$out" | sed "s/^\(not ok\|ok\|skip\) - /&$(basename "$test" .py): /"
         tail -n 1 <<<"$out"
     done
-    expect 0 "the table of docs/blender.md" python3 blender/tests/table.py --check docs/blender.md "$python"
+    expect 0 "the table of tests/README.md" python3 blender/tests/table.py --check tests/README.md "$python"
 done

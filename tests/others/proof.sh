@@ -1,7 +1,7 @@
 #!/bin/bash
 # Exports scenes and has programs of others evaluate every file: three.js under Node, Blender without a window (bpy) and usd-core, each
 # against our own vertices (.pc2), to 1e-5 of the size. They are fetched into the build folder at pinned versions; a step whose program
-# cannot be had is skipped with a word. Prints the table of docs/export.md as it is measured; an error on the page that is smaller fails.
+# cannot be had is skipped with a word. Prints the table of tests/README.md as it is measured; an error on the page that is smaller fails.
 # Usage: tests/others/proof.sh, with B (build folder) and WIGGLY (the program).
 . tests/check.sh
 here=tests/others
@@ -95,12 +95,12 @@ if fetched bpy timeout 900 python/fetch.sh "$place/venv" bpy-4.5.15; then
     done
 fi
 
-# --- the table of docs/export.md, as measured; no error on the page may be smaller
+# --- the table of tests/README.md, as measured; no error on the page may be smaller
 
-sed -n 's/^| `\(\.[^|]*\) | \([^|]*\) | \([0-9.e-]*\) |$/\1|\2|\3/p' docs/export.md | tr -d '`' >"$scratch/promised"
+sed -n 's/^| `\(\.[^|]*\) | \([^|]*\) | \([0-9.e-]*\) |$/\1|\2|\3/p' tests/README.md | tr -d '`' >"$scratch/promised"
 awk -F'|' 'NR == FNR { most[$1 "|" $2] = $3; next } { who = $1 "|" $2; files[who]++; if ($3 + 0 > largest[who] + 0) largest[who] = $3 }
     END { for (who in files) { split(who, part, "|"); kept = largest[who] + 0 <= most[who] + 0; bad += !kept
-        printf "| `%s` | %s | %s of the size in %d files |%s\n", part[1], part[2], largest[who], files[who], kept ? "" : " docs/export.md says " most[who] }
+        printf "| `%s` | %s | %s of the size in %d files |%s\n", part[1], part[2], largest[who], files[who], kept ? "" : " tests/README.md says " most[who] }
         exit bad > 0 }' "$scratch/promised" "$scratch/measured" >"$scratch/table"
-ok "docs/export.md has no smaller errors" $?
+ok "tests/README.md has no smaller errors" $?
 LC_ALL=C sort "$scratch/table"
