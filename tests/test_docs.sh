@@ -2,9 +2,9 @@
 # and runs, every scene is one, every text for the clipboard is pasted; every option, make target, file and link that they
 # name is there. Options are listed by --help, and not here again.
 #
-# Blocks of code are fenced, with a language and, for a file, its name: sh, c NAME, json NAME, json or csv (the clipboard), text (what
-# the commands above put out); math and mermaid are for the renderer, and test_python.sh runs python. They are taken in order, in a folder that looks like the root of
-# a tree that was built. A function named in the text, `like_this()`, is one of src or of the library.
+# Blocks of code are fenced, with a language and, for a file, its name: sh, c NAME, json NAME, csv (the clipboard); math and
+# mermaid are for the renderer, and test_python.sh runs python. They are taken in order, in a folder that looks like the root of a tree that was
+# built. A function named in the text, `like_this()`, is one of src or of the library.
 . tests/check.sh
 root=$PWD
 build=$(realpath "$B")
@@ -107,14 +107,6 @@ paste() { # <where> <text>
     holds "$1: is pasted" grep -q '"value": 1, "slope": 0, "stiffness": 50 }' "$scratch/pasted.json"
 }
 
-shown() { # <where> <text>
-    local line found=0
-    while IFS= read -r line; do
-        [[ -z $line ]] || grep -qrF --exclude-dir=build -e "$line" "$scratch/place" || found=1
-    done <<<"$2"
-    ok "$1: is what the commands put out" $found
-}
-
 block() { # <where> <language> <name> <text>
     case "$2 ${3:+NAME}" in
     "sh ") run "$1" "$4" ;;
@@ -123,8 +115,7 @@ block() { # <where> <language> <name> <text>
         printf '%s' "$4" >"$scratch/place/$3"
         expect 0 "$1: $3 is a scene" "$build/wiggly" check "$scratch/place/$3"
         ;;
-    "json " | "csv ") paste "$1" "$4" ;;
-    "text ") shown "$1" "$4" ;;
+    "csv ") paste "$1" "$4" ;;
     "math " | "mermaid " | "python ") ;;
     *) ok "$1: a block of a language that is tested ($2 $3)" 1 ;;
     esac
