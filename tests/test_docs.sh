@@ -11,7 +11,7 @@ build=$(realpath "$B")
 CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
-documents="README.md CONTRIBUTING.md docs/*.md"
+documents="README.md CONTRIBUTING.md docs/*.md tools/README.md"
 commands=$("$build/wiggly" --help-all | sed -n '/^Commands:$/,/^$/s/^  \([a-z]*\) .*/\1/p' | tr '\n' ' ')
 unset DISPLAY WAYLAND_DISPLAY
 
@@ -177,7 +177,7 @@ variables=$(printf '%s\n' "${goals[@]}" | sed -n 's/=.*//p' | while read -r name
 holds "and each test and variable is there" [ -z "$missing$variables" ]
 
 grep -rohIE "[a-z_][a-z0-9_]*\(" src include tests python/src | sort -u >"$scratch/called"
-for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
+for document in $documents CHANGELOG.md {assets,src/*,tests}/README.md; do
     missing=$(
         grep -oE '\]\([^)]*\)' "$document" | tr -d '[]()' | while read -r link; do
             target=$(dirname "$document")/${link%%#*} heading=${link#*#}
@@ -229,11 +229,11 @@ docs/your-character.md~up to eight joints per vertex~src/model/gltf.h~GLTF_INFLU
 docs/library.md~to 1e-9 of their range~tests/spline/test_vectors.c~agree to 1e-9 of the range
 docs/library.md~24 a second~src/spline/desc.c~to->step = 1.0 / 24
 docs/library.md~144 frames a second~examples/game_loop.c~1.0 / 144
-docs/measuring.md~frames over 16.7~said~over 16.7 ms
-docs/measuring.md~and 33.3 ms~said~over 33.3 ms
-docs/measuring.md~eleven times~tools/regress.sh~PAIRS:-11
-docs/measuring.md~a 99 % bootstrap~said~99 % interval
-docs/measuring.md~a loop of 10,000,000 samples~tools/wiggly-bench.c~SAMPLES = 10000000
+tools/README.md~frames over 16.7~said~over 16.7 ms
+tools/README.md~and 33.3 ms~said~over 33.3 ms
+tools/README.md~eleven times~tools/regress.sh~PAIRS:-11
+tools/README.md~a 99 % bootstrap~said~99 % interval
+tools/README.md~a loop of 10,000,000 samples~tools/wiggly-bench.c~SAMPLES = 10000000
 docs/scene-format.md~at most 100,000 samples~src/scene/document.h~SPLINE_MAX_SAMPLES = 100000,
 docs/scene-format.md~20,000 with `limits`~src/scene/document.h~LIMITED_MAX_SAMPLES = 20000,
 docs/scene-format.md~200,000 of them with `limits`~src/scene/document.h~SCENE_MAX_LIMITED = 200000,

@@ -1,4 +1,4 @@
-/// Replays: recorded events as text, one per line, by frame (docs/measuring.md).
+/// Replays: recorded events as text, one per line, by frame (tools/README.md).
 ///
 ///     wiggly-replay 1
 ///     version 0.1.0

@@ -45,7 +45,7 @@ int command_live(int argc, char **argv)
         {"--saves DIR", "folder for what a replay saves and exports (default: it writes nothing)", OPTION_TEXT,
          &app.saves, 0, 0},
         {"--record FILE", "record all input", OPTION_OUTPUT, &app.record, 0, 0},
-        {"--turns first|second", "draw frames in turn with another program (docs/measuring.md)", OPTION_WORD,
+        {"--turns first|second", "draw frames in turn with another program (tools/README.md)", OPTION_WORD,
          &app.turns, 0, 0},
         {"--result FILE.json", "write the document at the end", OPTION_OUTPUT, &app.result, 0, 0},
         {0},
