@@ -80,8 +80,10 @@ none "tests/limits.txt has every limit in the source" "$(limits | grep -vxFf <(g
 tests=$(find tests -maxdepth 2 -name 'test_*' -printf '%f\n')
 none "and each names its test, or says why there is none" \
     "$(grep -v '^#' tests/limits.txt | cut -f 2 | sed -E 's/^(test_[^, ]*).*/\1/' | grep -v '^room:' | grep -vxF "$tests")"
-none "docs/reliability.md names tests that are there" "$(grep -oE 'test_[a-z_0-9]+\.(c|sh)' docs/reliability.md | sort -u | grep -vxF "$tests")"
-none "and one for each promise" "$(grep -E '^\| [^*-]' docs/reliability.md | grep -vE '`test_|^\| Promise ')"
+promises=$(sed -n '/^## Promises/,/^## [^P]/p' tests/README.md | grep -E '^\| [^*-]')
+holds "there are promises" [ "$(wc -l <<<"$promises")" -gt 20 ]
+none "they name tests that are there" "$(grep -oE 'test_[a-z_0-9]+\.(c|sh)' <<<"$promises" | sort -u | grep -vxF "$tests")"
+none "and one for each promise" "$(grep -vE '`test_|^\| Promise ' <<<"$promises")"
 
 # --- packages: missing ones, root or not, no apt at all. Stand-ins on PATH note how they were called
 

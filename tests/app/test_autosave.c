@@ -339,7 +339,7 @@ static void assert_kept(const struct large *l, const char *expected)
 }
 
 /// The scene with exactly that edit is on its way to the disk within two seconds of frames, also where a copy has just been taken. The thread
-/// must not be waited for: what it takes of the two seconds is a matter of the machine (docs/reliability.md). Edits while the thread writes
+/// must not be waited for: what it takes of the two seconds is a matter of the machine (tests/README.md). Edits while the thread writes
 /// are not in the file, not even in part; they are in the next.
 TEST_OF(struct large, l, large_open(l), (autosave_close(l->autosave, false), blind_close(&l->blind)),
         a_large_scene_is_kept_soon_and_of_one_moment)
