@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "commands/commands.h"
-#include "commands/options.h"
 #include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>

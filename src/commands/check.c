@@ -1,7 +1,6 @@
 /// `wiggly check`: reports every problem of a scene, its solution and its models, and what a character holds.
 #include "base/error.h"
 #include "commands/commands.h"
-#include "commands/options.h"
 #include "commands/report.h"
 #include "rig/import.h"
 #include "scene/load.h"

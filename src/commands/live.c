@@ -2,7 +2,6 @@
 #include "app/app.h"
 #include "base/progress.h"
 #include "commands/commands.h"
-#include "commands/options.h"
 #include "timing/framelog.h"
 #include <stdio.h>
 

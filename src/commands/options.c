@@ -1,10 +1,9 @@
 /// Parses options from a table, prints help, and suggests the nearest word.
-#include "commands/options.h"
 #include "base/file.h"
+#include "commands/commands.h"
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,17 +41,6 @@ const char *options_nearest(const char *word, const char *const *candidates, int
         nearest = other;
     }
     return nearest;
-}
-
-int options_wrong(const struct usage *usage, const char *format, ...)
-{
-    char text[4096];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    print_line(stderr, "wiggly %s: %s; see wiggly %s --help", usage->command, text, usage->command);
-    return OPTIONS_WRONG;
 }
 
 /// Copies the long name of "-o, --output FILE", and returns the rest, "FILE".

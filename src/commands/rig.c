@@ -3,7 +3,6 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "commands/commands.h"
-#include "commands/options.h"
 #include "commands/report.h"
 #include "export/export.h"
 #include "rig/import.h"

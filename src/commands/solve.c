@@ -2,7 +2,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "commands/commands.h"
-#include "commands/options.h"
 #include "commands/report.h"
 #include "rig/import.h"
 #include "scene/evaluate.h"

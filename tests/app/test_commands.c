@@ -2,7 +2,6 @@
 #include "folder.h"
 
 #include "commands/commands.h"
-#include "commands/options.h"
 #include <dirent.h>
 #include <ftw.h>
 #include <signal.h>

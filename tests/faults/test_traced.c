@@ -6,7 +6,7 @@
 #include "app/film.h"
 #include "app/recovery.h"
 #include "commands/commands.h"
-#include "commands/progress.h"
+#include "commands/report.h"
 #include "scene/paint.h"
 #include <errno.h>
 #include <signal.h>
