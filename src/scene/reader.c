@@ -1,8 +1,7 @@
 /// Reads single values of a scene's text, and reports errors in them by file, line and path.
-#include "scene/reader.h"
+#include "scene/fields.h"
 #include "base/json.h"
 #include "base/need.h"
-#include "scene/text.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
