@@ -1,6 +1,5 @@
 /// The whole analysis of one motion: G, its poles or principal components, their shapes and splines.
 #include "analysis/analysis.h"
-#include "analysis/basis.h"
 #include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>

@@ -2,8 +2,8 @@
 #ifndef ANALYSIS_ANALYSIS_H
 #define ANALYSIS_ANALYSIS_H
 
-#include "analysis/poles.h"
 #include "analysis/rigid.h"
+#include "analysis/spectrum.h"
 #include "base/need.h"
 #include <wiggly/wiggly.h>
 

@@ -1,5 +1,5 @@
 /// Gram-Schmidt on sequences over the frames, each made orthogonal twice, so that close poles keep their digits.
-#include "analysis/basis.h"
+#include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>

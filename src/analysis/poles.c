@@ -1,5 +1,5 @@
 /// Finds poles, chooses those that matter, and fits their time series.
-#include "analysis/poles.h"
+#include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
 ///
 /// A point or a line leaves rotations open. A little weight on the identity chooses the smallest.
 #include "analysis/rigid.h"
-#include "analysis/basis.h"
+#include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>

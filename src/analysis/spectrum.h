@@ -1,10 +1,32 @@
-/// Complex principal components of a motion.
+/// Sequences over the frames of a motion: least squares on them, complex principal components, poles and their time series.
 #ifndef ANALYSIS_SPECTRUM_H
 #define ANALYSIS_SPECTRUM_H
 
 #include "base/lapack.h"
 #include <complex.h>
 #include <stdbool.h>
+
+double basis_dot(const double *a, const double *b, int count);
+
+/// B: `count` sequences, each of `frames` numbers. B = L Q with orthonormal rows of Q and L lower triangular.
+struct basis {
+    int frames, count, capacity;
+    double *q;     ///< capacity × frames
+    double *lower; ///< capacity × capacity
+};
+
+/// Room for `capacity` sequences.
+void basis_create(struct basis *basis, int frames, int capacity);
+void basis_free(struct basis *basis);
+
+/// Appends a sequence; if it is a combination of the others, it counts as zero.
+void basis_append(struct basis *basis, const double *sequence);
+
+/// How much of the power Σ S² the last `last` sequences explain beyond those before; `gram` is G = S Sᵀ.
+double basis_gain(const struct basis *basis, int last, const double *gram);
+
+/// W = (B Bᵀ)⁻¹ B, count × frames: S ≈ Bᵀ (W S) with the least sum of squares.
+void basis_weights(const struct basis *basis, double *weights);
 
 // The Hilbert transform of all columns at once, as a matrix on the frames.
 
@@ -47,5 +69,48 @@ void spectrum_free(struct spectrum *spectrum);
 
 /// The weights w of the frames, Re w then Im w, with w S = u_kᴴ S̃, the k-th row of Vᴴ times its singular value.
 void spectrum_weights(const struct spectrum *spectrum, int k, double *weights);
+
+// The poles of a motion by a subspace method (ESPRIT) on G = S Sᵀ: they do not depend on the frame rate.
+
+enum { SUBSPACE_ORDER_MAX = 24, SUBSPACE_POLES_MAX = SUBSPACE_ORDER_MAX / 2 };
+
+/// One oscillation, z^t at frame t.
+struct pole {
+    double complex z; ///< Im z > 0
+    double wander;    ///< how far it moves as the order grows, |Δs| / |s|: small for a true pole of the motion
+};
+
+/// Finds the oscillations that all columns of S share, from G (frames × frames, row after row, both halves), the steadiest first.
+/// Constant and linear parts are removed first. Overdamped and growing oscillations are left out.
+/// Returns their number, at most SUBSPACE_POLES_MAX; -1 if LAPACK has no memory.
+int subspace_poles(const struct lapack *lapack, const double *gram, int frames, struct pole *poles);
+
+// A motion as a sum of undisturbed damped oscillations: which poles matter.
+
+/// Moves the poles that explain the motion best to the front, each judged beside those before it, and appends them to `basis`, which
+/// has a sequence of ones and room for two per pole. Steady poles come before wandering ones. Chooses at most `most`,
+/// and at least one if there is any; leaves out poles that explain less than `least` of the motion's power or only cancel each other.
+/// Returns their number.
+int exponentials_choose(struct pole *poles, int count, int most, double least, const double *gram,
+                        struct basis *basis);
+
+// One complex coordinate per pole: time series, and the weights of the frames that give the shapes.
+
+enum { TIME_SERIES_MAX = 8 };
+
+/// S ≈ Σ_k Re(R_k Ñ_k). Row 2k of `rows` holds Re R_k and row 2k + 1 −Im R_k, so that with Ñ_k = (w_2k + j w_2k+1) S for the
+/// rows w of `weights` the sum is rowsᵀ weights S.
+struct time_series {
+    int frames, count;
+    double complex pole[TIME_SERIES_MAX]; ///< z_k, R_k ~ z_k^t
+    double *rows, *weights;               ///< 2 count × frames
+    double part[TIME_SERIES_MAX];         ///< Σ_t |Re(R_k Ñ_k)|²: larger than the motion's if others cancel it
+};
+
+/// Fits time series to `count` poles. `gram` is G = S Sᵀ of a motion about its middle. A time series oscillates at its pole and deviates
+/// only as the motion requires, for example under a force. The first shapes come from the undriven frames, those from `first` on.
+struct time_series time_series_create(const struct lapack *lapack, const double *gram, int frames, int first,
+                                      const double complex *poles, int count);
+void time_series_free(struct time_series *series);
 
 #endif

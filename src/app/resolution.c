@@ -1,5 +1,5 @@
 /// Chooses the stage's resolution and the frame rate from measured frame times.
-#include "app/resolution.h"
+#include "app/state.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

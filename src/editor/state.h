@@ -4,7 +4,7 @@
 
 #include "editor/core/command.h"
 #include "editor/editor.h"
-#include "ui/tooltip.h"
+#include "ui/widgets.h"
 
 /// The last key pressed in this frame. Its text event follows.
 struct press {

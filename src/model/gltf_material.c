@@ -1,5 +1,5 @@
 /// Reads materials: base colour, texture and transparency; and decodes PNG and JPEG pictures from buffer views, data URIs and files.
-#include "model/gltf_read.h"
+#include "model/glb.h"
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /// Poses of glTF characters: clips, matrices of nodes and joints, the vertices v′ = Σ wⱼ Jⱼ (v + Σ wₜ Δₜ v), normals by the cofactors of the
 /// same matrix, and bounding boxes; and whether a clip loops.
 #include "maths/maths.h"
-#include "model/gltf_read.h"
+#include "model/glb.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

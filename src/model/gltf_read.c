@@ -1,8 +1,8 @@
 /// Reads a glTF character: meshes with their vertices and morph targets, nodes, skins and animations.
-#include "model/gltf_read.h"
 #include "base/names.h"
 #include "base/need.h"
 #include "maths/maths.h"
+#include "model/glb.h"
 #include "model/surface.h"
 #include "model/vector.h"
 #include <math.h>

@@ -1,5 +1,5 @@
 /// Queues events until the next frame, and counts clicks.
-#include "platform/events.h"
+#include "platform/surface.h"
 #include <math.h>
 #include <string.h>
 

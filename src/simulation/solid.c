@@ -1,9 +1,9 @@
 /// Turns a surface's triangles to face outwards, finds where it is open, and fills it with voxels.
-#include "simulation/solid.h"
 #include "base/need.h"
 #include "base/progress.h"
 #include "model/adjacency.h"
 #include "simulation/body.h"
+#include "simulation/lattice.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

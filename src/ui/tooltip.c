@@ -1,7 +1,7 @@
 /// When and where tooltips appear, and how they look.
-#include "ui/tooltip.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
 /// Time: what the timing log writes, sums up and concludes, which is evidence and must be exact; and what the app does about slow frames.
 #include "folder.h"
 
-#include "app/resolution.h"
+#include "app/state.h"
 #include "regress/bootstrap.h"
 #include "timing/framelog.h"
 #include <sys/wait.h>

@@ -1,7 +1,6 @@
 /// The lattice around a surface: what is inside, how much of it, what hangs together, and where the vertices are.
 #include "near.h"
 #include "simulation/lattice.h"
-#include "simulation/solid.h"
 
 /// A surface and its lattice, either of which may be there or not.
 struct cut {
