@@ -158,6 +158,7 @@ static const double least_gain_afterwards = 0.0002;
 
 /// An analysis in progress. Nothing here is per vertex.
 struct work {
+    struct pool pool; ///< has all below
     const struct lapack *lapack;
     const struct motion *motion;
     const struct analysis_plan *plan;
@@ -204,7 +205,7 @@ static bool find_poles(struct work *w, struct basis *basis, struct error *error)
     const int first = w->plan->first, frames = w->motion->frames - first;
     const size_t from = (size_t)first, n = (size_t)w->motion->frames, after = n - from;
     if (first > 0) {
-        w->free = need(after * after, sizeof *w->free);
+        w->free = pool_take(&w->pool, after * after, sizeof *w->free);
         for (size_t t = 0; t < after; t++)
             memcpy(w->free + t * after, w->gram + (t + from) * n + from, after * sizeof *w->free);
     }
@@ -212,28 +213,25 @@ static bool find_poles(struct work *w, struct basis *basis, struct error *error)
     const double least = first > 0 ? least_gain_afterwards : least_gain;
     w->power = trace(gram, frames);
     if (!(w->power > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, but nothing moves", w->motion->path);
-    double *ones = need((size_t)frames, sizeof *ones);
+    double *ones = pool_take(&w->pool, (size_t)frames, sizeof *ones);
     for (int t = 0; t < frames; t++) ones[t] = 1;
     basis_append(basis, ones);
-    free(ones);
     const int found = subspace_poles(w->lapack, gram, frames, w->poles);
     if (found < 0) return fail_frames(error, w->motion);
     w->pole_count = exponentials_choose(w->poles, found, TIME_SERIES_MAX, least, gram, basis);
     if (w->plan->method == ANALYSIS_POLES) {
         // The middle's weights are those of the ones, with which the basis begins.
-        double *all = need((size_t)basis->count * after, sizeof *all);
-        w->middle = need_zeroed(n, sizeof *w->middle);
+        double *all = pool_take(&w->pool, (size_t)basis->count * after, sizeof *all);
+        w->middle = pool_take(&w->pool, n, sizeof *w->middle);
         basis_weights(basis, all);
         memcpy(w->middle + first, all, after * sizeof *w->middle);
-        free(all);
 
         // G becomes that of S′ = (1 − 1 wᵀ) S: with g = G w, G − 1 gᵀ − g 1ᵀ + (wᵀ g) 1 1ᵀ, both halves at once, so that it stays
         // symmetric.
-        double *product = need(n, sizeof *product);
+        double *product = pool_take(&w->pool, n, sizeof *product);
         for (size_t t = 0; t < n; t++) product[t] = basis_dot(w->gram + t * n, w->middle, w->motion->frames);
         const double twice = basis_dot(w->middle, product, w->motion->frames);
         for (size_t i = 0; i < n * n; i++) w->gram[i] += twice - product[i % n] - product[i / n];
-        free(product);
     }
     w->power = trace(w->gram, w->motion->frames);
     return true;
@@ -303,7 +301,7 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
     struct basis basis;
     basis_create(&basis, frames - w->plan->first, 1 + 2 * TIME_SERIES_MAX);
     bool done = find_poles(w, &basis, error);
-    basis_free(&basis);
+    pool_free(&basis.pool);
     if (!done) return false;
     if (w->pole_count == 0 && w->plan->first > 0)
         return fail(error, ERROR_INPUT,
@@ -327,7 +325,7 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
             int cancelled = count - 1;
             while (cancelled >= 0 && series.part[cancelled] <= cancelling * w->power) cancelled--;
             if (cancelled < 0 || count == 1) break;
-            time_series_free(&series);
+            pool_free(&series.pool);
             for (int k = cancelled; k + 1 < w->pole_count; k++) w->poles[k] = w->poles[k + 1];
             w->pole_count--;
             a->cancelled++;
@@ -343,7 +341,7 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
             c->damping = fmax(-creal(s) / cabs(s), 0);
         }
         for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = series.weights[i];
-        time_series_free(&series);
+        pool_free(&series.pool);
     } else { // one component per principal component of the analytic signal
         struct spectrum spectrum;
         create_components(a, w, w->plan->modes < frames ? w->plan->modes : frames);
@@ -355,7 +353,7 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
             c->explained = spectrum.values[k] / spectrum.total;
             spectrum_weights(&spectrum, k, w->weights + 2 * (size_t)k * (size_t)frames);
         }
-        spectrum_free(&spectrum);
+        pool_free(&spectrum.pool);
     }
     a->pca1 = shares[0];
     a->pca2 = shares[1];
@@ -414,22 +412,13 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // per pair of frames
     if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);
     a->mean = pool_take(&a->pool, (size_t)motion->vertices, sizeof *a->mean);
-    work.gram = need(n * n, sizeof *work.gram);
-    work.weights = need(2 * (size_t)plan->modes * n, sizeof *work.weights);
+    work.gram = pool_take(&work.pool, n * n, sizeof *work.gram);
+    work.weights = pool_take(&work.pool, 2 * (size_t)plan->modes * n, sizeof *work.weights);
     bool done =
         slabs_gram(lapack, motion, plan->base, work.gram, a->mean[0], error) && find_components(a, &work, error);
-    free(work.gram);
-    free(work.free);
-    free(work.weights);
-    free(work.middle);
-    if (!done) analysis_free(a);
+    pool_free(&work.pool);
+    if (!done) pool_free(&a->pool);
     return done;
-}
-
-void analysis_free(struct analysis *a)
-{
-    pool_free(&a->pool);
-    *a = (struct analysis){0};
 }
 
 // --- splines
@@ -681,10 +670,4 @@ void knots_create(struct knots *k, const struct component *component, double fps
     wiggly_destroy(s.solver);
     free(s.response);
     free(s.re);
-}
-
-void knots_free(struct knots *k)
-{
-    free(k->series);
-    *k = (struct knots){0};
 }

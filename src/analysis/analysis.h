@@ -78,7 +78,6 @@ struct analysis {
 /// number that is not finite, not enough memory.
 bool analysis_create(struct analysis *analysis, const struct lapack *lapack, const struct motion *motion,
                      const struct analysis_plan *plan, struct error *error);
-void analysis_free(struct analysis *analysis);
 
 // A wiggly spline that repeats a coordinate's motion, with few knots, one frequency and one damping.
 
@@ -92,12 +91,11 @@ struct knots {
     bool sloped;                                 ///< every knot has a slope
     int frame[KNOTS_MOST];                       ///< ascending; the first is 0
     double value[KNOTS_MOST], slope[KNOTS_MOST]; ///< value per second
-    double complex *series;                      ///< x per frame
+    double complex *series;                      ///< x per frame, which the caller frees
     double error;                                ///< component_error() of x
 };
 
 /// Finds the fewest knots, at most KNOTS_MOST, that bring the error near the component's own. Always gives the same knots.
 void knots_create(struct knots *knots, const struct component *component, double fps);
-void knots_free(struct knots *knots);
 
 #endif

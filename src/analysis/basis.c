@@ -2,7 +2,6 @@
 #include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double dependent = 1e-12; ///< a sequence with less than this share left is a combination of the others
@@ -10,15 +9,8 @@ static const double dependent = 1e-12; ///< a sequence with less than this share
 void basis_create(struct basis *b, int frames, int capacity)
 {
     *b = (struct basis){.frames = frames, .capacity = capacity};
-    b->q = need((size_t)capacity * (size_t)frames, sizeof *b->q);
-    b->lower = need_zeroed((size_t)capacity * (size_t)capacity, sizeof *b->lower);
-}
-
-void basis_free(struct basis *b)
-{
-    free(b->q);
-    free(b->lower);
-    *b = (struct basis){0};
+    b->q = pool_take(&b->pool, (size_t)capacity * (size_t)frames, sizeof *b->q);
+    b->lower = pool_take(&b->pool, (size_t)capacity * (size_t)capacity, sizeof *b->lower);
 }
 
 double basis_dot(const double *a, const double *b, int count)

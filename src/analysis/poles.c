@@ -367,12 +367,13 @@ struct time_series time_series_create(const struct lapack *lapack, const double 
 {
     size_t n = (size_t)frames, d = 2 * (size_t)count;
     struct time_series c = {.frames = frames, .count = count};
+    struct pool work = {0};
     struct fit fit = {.series = &c, .lapack = lapack, .gram = gram, .first = first};
     memcpy(c.pole, poles, (size_t)count * sizeof *poles);
-    c.rows = need(d * n, sizeof *c.rows);
-    c.weights = need(d * n, sizeof *c.weights);
-    fit.pull = need(d * n, sizeof *fit.pull);
-    fit.band = need((2 * d + 1) * d * n, sizeof *fit.band);
+    c.rows = pool_take(&c.pool, d * n, sizeof *c.rows);
+    c.weights = pool_take(&c.pool, d * n, sizeof *c.weights);
+    fit.pull = pool_take(&work, d * n, sizeof *fit.pull);
+    fit.band = pool_take(&work, (2 * d + 1) * d * n, sizeof *fit.band);
     basis_create(&fit.basis, frames, (int)d);
     for (int k = 0; k < count; k++) {
         double *re = c.rows + 2 * (size_t)k * n, *im = re + n;
@@ -393,15 +394,7 @@ struct time_series time_series_create(const struct lapack *lapack, const double 
         for (size_t i = 0; i < n; i++)
             c.part[k] += re[i] * re[i] * m[0] + 2 * re[i] * im[i] * m[1] + im[i] * im[i] * below[1];
     }
-    basis_free(&fit.basis);
-    free(fit.pull);
-    free(fit.band);
+    pool_free(&fit.basis.pool);
+    pool_free(&work);
     return c;
-}
-
-void time_series_free(struct time_series *c)
-{
-    free(c->rows);
-    free(c->weights);
-    *c = (struct time_series){0};
 }

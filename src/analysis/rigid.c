@@ -112,7 +112,7 @@ static bool keep_slow(double *path, int frames)
             for (int k = 0; k < POWERS; k++) row[t] += part[k] * basis.q[k * frames + t];
         }
     }
-    basis_free(&basis);
+    pool_free(&basis.pool);
     free(power);
     return along > least_slow * left;
 }
@@ -148,8 +148,8 @@ static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
     // R and p of every frame from the path.
     double moved = 0, first[4];
     if (follows) {
-        rigid->turn = need((size_t)frames, sizeof *rigid->turn);
-        rigid->place = need((size_t)frames, sizeof *rigid->place);
+        rigid->turn = pool_take(&rigid->pool, (size_t)frames, sizeof *rigid->turn);
+        rigid->place = pool_take(&rigid->pool, (size_t)frames, sizeof *rigid->place);
     }
     for (int t = 0; follows && t < frames; t++) {
         double q[4], square = 0, same = 0, travel = 0, away = 0, (*turn)[3] = rigid->turn[t];
@@ -185,12 +185,13 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
 {
     const size_t frames = (size_t)motion->frames, vertices = (size_t)rest->vertex_count;
     struct survey s = {.rest = rest};
+    struct pool work = {0};
     uint8_t *used = surface_used_vertices(rest);
     *rigid = (struct rigid){0};
-    s.base = need(vertices + 1, sizeof *s.base);
-    s.moment = need_zeroed(frames, sizeof *s.moment);
-    s.mean = need_zeroed(frames, sizeof *s.mean);
-    s.extent = need_zeroed(vertices + 1, sizeof *s.extent);
+    s.base = pool_take(&work, vertices + 1, sizeof *s.base);
+    s.moment = pool_take(&work, frames, sizeof *s.moment);
+    s.mean = pool_take(&work, frames, sizeof *s.mean);
+    s.extent = pool_take(&work, vertices + 1, sizeof *s.extent);
     rigid->whole = true;
     for (size_t v = 0; v < vertices; v++) {
         s.base[v] = used[v] && (!base || base[v]);
@@ -225,13 +226,12 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
     // Resting vertices may hold the mesh, unless they lie on a point or a line: then it can still turn.
     bool held = false;
     if (done && !base) {
-        struct survey still_ones = {.rest = rest, .base = need(vertices + 1, sizeof *s.base)};
+        struct survey still_ones = {.rest = rest, .base = pool_take(&work, vertices + 1, sizeof *s.base)};
         double largest = 0, area = 0;
         for (size_t v = 0; v < vertices; v++) largest = fmax(largest, s.base[v] ? s.extent[v] : 0);
         for (size_t v = 0; v < vertices; v++)
             still_ones.base[v] = s.base[v] && s.extent[v] <= still * still * largest;
         measure_rest(&still_ones);
-        free(still_ones.base);
         const double size = size_of(&still_ones), (*spread)[3] = (const double(*)[3])still_ones.spread;
         for (int a = 0; a < 3; a++) { // the second of the spread's invariants
             const int b = (a + 1) % 3;
@@ -241,18 +241,8 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
     }
     if (done && s.count > 0 && !held) fit_frames(rigid, lapack, &s, motion->frames, base);
     free(used);
-    free(s.base);
-    free(s.moment);
-    free(s.mean);
-    free(s.extent);
+    pool_free(&work);
     return done;
-}
-
-void rigid_free(struct rigid *rigid)
-{
-    free(rigid->turn);
-    free(rigid->place);
-    *rigid = (struct rigid){0};
 }
 
 double rigid_share(const double complex (*shape)[3], const struct surface *rest)
@@ -285,7 +275,7 @@ double rigid_share(const double complex (*shape)[3], const struct surface *rest)
         for (int k = 0; k < basis.count; k++)
             rigid += pow(basis_dot(part, basis.q + (size_t)k * (size_t)columns, columns), 2);
     }
-    basis_free(&basis);
+    pool_free(&basis.pool);
     free(part);
     free(used);
     return whole > 0 ? rigid / whole : 0;

@@ -3,12 +3,14 @@
 #define ANALYSIS_RIGID_H
 
 #include "base/lapack.h"
+#include "base/need.h"
 #include "model/motion.h"
 #include "model/surface.h"
 #include <complex.h>
 
 /// In every frame the base's point that rests at r is at R r + p, with R and p of the least sum of squares (Horn 1987).
 struct rigid {
+    struct pool pool;     ///< has all below
     int frames;           ///< 0: the base rests, and the motion stays as it is
     double (*turn)[3][3]; ///< R of every frame
     double (*place)[3];   ///< p of every frame, metres
@@ -22,7 +24,6 @@ struct rigid {
 /// Errors: a number that is not finite, a file that shrinks.
 bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
                 const struct surface *rest, const bool *base, struct error *error);
-void rigid_free(struct rigid *rigid);
 
 /// The share of a shape that small rigid motions of the whole mesh explain, 0 … 1.
 double rigid_share(const double complex (*shape)[3], const struct surface *rest);

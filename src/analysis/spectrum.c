@@ -148,9 +148,9 @@ bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const doub
     size_t n = (size_t)frames;
     struct predictor predictor = hilbert_predictor(gram, frames);
     *s = (struct spectrum){.frames = frames};
-    s->transform = need(n * n, sizeof *s->transform);
-    s->vectors = need(n * n, sizeof *s->vectors);
-    s->values = need(n, sizeof *s->values);
+    s->transform = pool_take(&s->pool, n * n, sizeof *s->transform);
+    s->vectors = pool_take(&s->pool, n * n, sizeof *s->vectors);
+    s->values = pool_take(&s->pool, n, sizeof *s->values);
     hilbert_transform(lapack, &predictor, frames, s->transform);
 
     // S̃ S̃ᴴ = (1 + jH) G (1 − jHᵀ) = G + H G Hᵀ + j (H G − (H G)ᵀ)
@@ -166,7 +166,7 @@ bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const doub
     }
     free(hg);
     if (lapack->zheevd(LAPACK_COLUMNS_FIRST, 'V', 'L', frames, s->vectors, frames, s->values) != 0) {
-        spectrum_free(s);
+        pool_free(&s->pool);
         return false;
     }
 
@@ -185,14 +185,6 @@ bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const doub
         s->total += s->values[i];
     }
     return true;
-}
-
-void spectrum_free(struct spectrum *s)
-{
-    free(s->transform);
-    free(s->vectors);
-    free(s->values);
-    *s = (struct spectrum){0};
 }
 
 void spectrum_weights(const struct spectrum *s, int k, double *weights)

@@ -3,6 +3,7 @@
 #define ANALYSIS_SPECTRUM_H
 
 #include "base/lapack.h"
+#include "base/need.h"
 #include <complex.h>
 #include <stdbool.h>
 
@@ -10,6 +11,7 @@ double basis_dot(const double *a, const double *b, int count);
 
 /// B: `count` sequences, each of `frames` numbers. B = L Q with orthonormal rows of Q and L lower triangular.
 struct basis {
+    struct pool pool; ///< has all below
     int frames, count, capacity;
     double *q;     ///< capacity × frames
     double *lower; ///< capacity × capacity
@@ -17,7 +19,6 @@ struct basis {
 
 /// Room for `capacity` sequences.
 void basis_create(struct basis *basis, int frames, int capacity);
-void basis_free(struct basis *basis);
 
 /// Appends a sequence; if it is a combination of the others, it counts as zero.
 void basis_append(struct basis *basis, const double *sequence);
@@ -52,6 +53,7 @@ void hilbert_transform(const struct lapack *lapack, const struct predictor *pred
 
 /// The complex covariance S̃ S̃ᴴ of the analytic signal S̃ = (1 + jH) S, decomposed.
 struct spectrum {
+    struct pool pool; ///< has all below
     int frames;
     double *transform;       ///< H, frames × frames, row after row
     double complex *vectors; ///< eigenvectors u_k, one after the other
@@ -65,7 +67,6 @@ bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int f
 
 /// The trace of `gram` is above 0. False, with nothing to free, if LAPACK has no memory.
 bool spectrum_create(struct spectrum *spectrum, const struct lapack *lapack, const double *gram, int frames);
-void spectrum_free(struct spectrum *spectrum);
 
 /// The weights w of the frames, Re w then Im w, with w S = u_kᴴ S̃, the k-th row of Vᴴ times its singular value.
 void spectrum_weights(const struct spectrum *spectrum, int k, double *weights);
@@ -101,6 +102,7 @@ enum { TIME_SERIES_MAX = 8 };
 /// S ≈ Σ_k Re(R_k Ñ_k). Row 2k of `rows` holds Re R_k and row 2k + 1 −Im R_k, so that with Ñ_k = (w_2k + j w_2k+1) S for the
 /// rows w of `weights` the sum is rowsᵀ weights S.
 struct time_series {
+    struct pool pool; ///< has the rows and the weights
     int frames, count;
     double complex pole[TIME_SERIES_MAX]; ///< z_k, R_k ~ z_k^t
     double *rows, *weights;               ///< 2 count × frames
@@ -111,6 +113,5 @@ struct time_series {
 /// only as the motion requires, for example under a force. The first shapes come from the undriven frames, those from `first` on.
 struct time_series time_series_create(const struct lapack *lapack, const double *gram, int frames, int first,
                                       const double complex *poles, int count);
-void time_series_free(struct time_series *series);
 
 #endif

@@ -363,8 +363,8 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
                        job->modes);
             keep_components(job, &analysis, &in, &result);
         }
-        analysis_free(&analysis);
-        rigid_free(&in.base);
+        pool_free(&analysis.pool);
+        pool_free(&in.base.pool);
         motion_close(&in.motion);
     }
     while (done && character->coordinate_count > result.filled) { // those without poles
@@ -381,7 +381,7 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
            (!job->coordinates || analyze_write_coordinates(job->coordinates, character, result.analyzed, error));
     for (int i = 0; i < result.filled; i++) {
         free(result.analyzed[i].series);
-        knots_free(&result.analyzed[i].knots);
+        free(result.analyzed[i].knots.series);
     }
     free(result.analyzed);
     character_free(character);

@@ -86,7 +86,7 @@ static bool simulate_once(const struct job *job, struct soft *soft, struct recor
     }
     record->calmed = integrator.calmed > 0;
     record->cost = ((double)integrator.newton + (double)integrator.gradients / 100) * soft->body.element_count;
-    integrator_free(&integrator);
+    pool_free(&integrator.pool);
     return good;
 }
 
@@ -337,7 +337,7 @@ static bool simulate_mesh(struct job *job, struct error *error)
                 job->loads.floor = &floor;
             }
             good = simulate_shake(job, &soft, &surface, error);
-            floor_free(&floor);
+            pool_free(&floor.pool);
 
             // What analyze needs to know of the motion.
             struct companion made = {.frames = shake_frames(job), .vertices = surface.vertex_count, .fps = job->fps};
@@ -356,7 +356,7 @@ static bool simulate_mesh(struct job *job, struct error *error)
         soft_free(&soft);
     }
     surface_free(&surface);
-    drive_free(&job->drive);
+    pool_free(&job->drive.pool);
     return good;
 }
 

@@ -408,7 +408,7 @@ bool body_create(struct body *body, const struct body_mesh *mesh, struct materia
         for (int a = 0; good && a < 4; a++) body->mass[mesh->tets[e][a]] += density * element->volume / 4;
     }
     if (!good) {
-        body_free(body);
+        pool_free(&body->pool);
         return false;
     }
 
@@ -437,12 +437,6 @@ bool body_create(struct body *body, const struct body_mesh *mesh, struct materia
     }
     free(pairs);
     return true;
-}
-
-void body_free(struct body *body)
-{
-    pool_free(&body->pool);
-    *body = (struct body){0};
 }
 
 void body_ready(struct body *body)
@@ -630,8 +624,8 @@ void modes_create(struct modes *modes, struct body *body, int count)
     int steps = 2 * (count + RIGID) + 24; // the test against a dense solver shows that all converge
     if (steps > movable) steps = movable;
     *modes = (struct modes){0};
-    modes->frequency = need_zeroed((size_t)count + 1, sizeof *modes->frequency);
-    modes->shape = need_zeroed((size_t)(count + 1) * (size_t)body->node_count, sizeof *modes->shape);
+    modes->frequency = pool_take(&modes->pool, (size_t)count + 1, sizeof *modes->frequency);
+    modes->shape = pool_take(&modes->pool, (size_t)(count + 1) * (size_t)body->node_count, sizeof *modes->shape);
     if (steps == 0) return;
     const size_t nodes = (size_t)body->node_count, room = (size_t)steps;
     struct lanczos l = {.body = body, .node_count = body->node_count, .steps = steps};
@@ -677,11 +671,4 @@ void modes_create(struct modes *modes, struct body *body, int count)
         }
     }
     pool_free(&l.pool);
-}
-
-void modes_free(struct modes *modes)
-{
-    free(modes->frequency);
-    free(modes->shape);
-    *modes = (struct modes){0};
 }

@@ -142,7 +142,6 @@ struct body_mesh {
 
 /// Density in kg/m³. False where an element is flat.
 bool body_create(struct body *body, const struct body_mesh *mesh, struct material material, double density);
-void body_free(struct body *body);
 
 /// Once nodes are pinned, before anything below.
 void body_ready(struct body *body);
@@ -161,6 +160,7 @@ double body_kinetic(const struct body *body, const double (*v)[3]);
 
 /// The lowest normal modes. A free body's six rigid ones are skipped.
 struct modes {
+    struct pool pool; ///< has all below
     int count;
     double *frequency;  ///< Hz, ascending
     double (*shape)[3]; ///< count × node_count rows: mode k of node i at [k · node_count + i]; φᵀMφ = 1
@@ -168,6 +168,5 @@ struct modes {
 
 /// The `count` lowest ones, or as many as there are.
 void modes_create(struct modes *modes, struct body *body, int count);
-void modes_free(struct modes *modes);
 
 #endif

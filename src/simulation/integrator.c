@@ -84,9 +84,9 @@ bool drive_read_track(struct base_drive *d, const char *path, struct error *erro
     if (!file_read_text(path, FILE_LIMIT, &text, &size, error)) return false;
     for (size_t i = 0; i < size; i++) lines += text[i] == '\n';
     d->kind = DRIVE_TRACK;
-    d->time = need_zeroed(lines, sizeof *d->time);
-    d->value = need_zeroed(lines, sizeof *d->value);
-    d->curvature = need_zeroed(lines, sizeof *d->curvature);
+    d->time = pool_take(&d->pool, lines, sizeof *d->time);
+    d->value = pool_take(&d->pool, lines, sizeof *d->value);
+    d->curvature = pool_take(&d->pool, lines, sizeof *d->curvature);
     bool good = true;
     int number = 0;
     for (char *line = text, *next; good && line; line = next) {
@@ -119,7 +119,7 @@ bool drive_read_track(struct base_drive *d, const char *path, struct error *erro
 
     // Second derivatives of the natural cubic spline, by the usual tridiagonal elimination.
     const double *t = d->time, *y = d->value;
-    double *above = need_zeroed(lines, sizeof *above);
+    double *above = pool_take(&d->pool, lines, sizeof *above);
     for (int i = 1; good && i < d->count - 1; i++) {
         double before = t[i] - t[i - 1], after = t[i + 1] - t[i];
         double right = 6 * ((y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before);
@@ -128,17 +128,8 @@ bool drive_read_track(struct base_drive *d, const char *path, struct error *erro
         d->curvature[i] = (right - before * d->curvature[i - 1]) / pivot;
     }
     for (int i = d->count - 2; good && i > 0; i--) d->curvature[i] -= above[i] * d->curvature[i + 1];
-    free(above);
     free(text);
     return good;
-}
-
-void drive_free(struct base_drive *d)
-{
-    free(d->time);
-    free(d->value);
-    free(d->curvature);
-    *d = (struct base_drive){0};
 }
 
 // --- springs under the vertices
@@ -166,12 +157,6 @@ void floor_create(struct floor *f, const struct lattice *lattice, const struct s
     }
 }
 
-void floor_free(struct floor *f)
-{
-    pool_free(&f->pool);
-    *f = (struct floor){0};
-}
-
 static double depth_of(const struct floor *f, int vertex, double risen, const double (*x)[3])
 {
     const struct lattice *l = f->lattice;
@@ -192,7 +177,7 @@ static const double linear_tolerance = 1e-3;
 static const double growth_allowed = 0.01;
 
 struct integrator_work {
-    double (*a)[3];         ///< accelerations; one allocation for all vectors starts here
+    double (*a)[3];         ///< accelerations
     double (*y)[3];         ///< the unknown: positions at the step's end
     double (*target)[3];    ///< t
     double (*origin)[3];    ///< q
@@ -274,37 +259,18 @@ static struct scheme backward_euler(double h) { return complete_scheme((struct s
 
 void integrator_create(struct integrator *integrator, struct body *body, double step)
 {
-    enum { VECTORS = 10 };
     size_t n = (size_t)body->node_count;
     *integrator = (struct integrator){.body = body, .step = step, .tolerance = 1e-9};
-    integrator->x = need_zeroed(n, sizeof *integrator->x);
-    integrator->v = need_zeroed(n, sizeof *integrator->v);
-    struct integrator_work *w = integrator->work = need_zeroed(1, sizeof *w);
-    double(*pool)[3] = need_zeroed(VECTORS * n, sizeof *pool);
+    struct pool *pool = &integrator->pool;
+    struct integrator_work *w = integrator->work = pool_take(pool, 1, sizeof *w);
+    double(**const vectors[])[3] = {&integrator->x, &integrator->v, &w->a,     &w->y,
+                                    &w->target,     &w->origin,     &w->start, &w->force,
+                                    &w->downhill,   &w->direction,  &w->moved, &w->drag};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        *vectors[i] = pool_take(pool, n, sizeof **vectors[i]);
     w->lagged = body->stiffness;
-    w->lagged.block = need_zeroed((size_t)body->stiffness.start[n] + 1, sizeof *w->lagged.block);
-    w->a = pool;
-    w->y = pool + n;
-    w->target = pool + 2 * n;
-    w->origin = pool + 3 * n;
-    w->start = pool + 4 * n;
-    w->force = pool + 5 * n;
-    w->downhill = pool + 6 * n;
-    w->direction = pool + 7 * n;
-    w->moved = pool + 8 * n;
-    w->drag = pool + 9 * n;
+    w->lagged.block = pool_take(pool, (size_t)body->stiffness.start[n] + 1, sizeof *w->lagged.block);
     memcpy(integrator->x, body->rest, n * sizeof *integrator->x);
-}
-
-void integrator_free(struct integrator *integrator)
-{
-    struct integrator_work *w = integrator->work;
-    free(w->a);
-    free(w->lagged.block);
-    free(w);
-    free(integrator->x);
-    free(integrator->v);
-    *integrator = (struct integrator){0};
 }
 
 /// Forces of strain and loads at the positions x, 0 at pinned nodes. Returns the strain energy; the loads' goes to `potential`.

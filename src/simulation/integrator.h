@@ -33,7 +33,8 @@ struct base_drive {
     double size;         ///< the largest displacement, m; for a track, the factor it is multiplied by
     double frequency;    ///< Hz
     double seconds;      ///< length of the whole motion; a sweep takes this long
-    int count;           ///< of the track's samples
+    struct pool pool;    ///< has the track's samples
+    int count;           ///< of these
     double *time;        ///< s, ascending
     double *value;
     double *curvature; ///< second derivatives of the natural cubic spline at the samples
@@ -41,7 +42,6 @@ struct base_drive {
 
 /// Reads a track, one "seconds,displacement" a line; headings and blank lines are skipped. Sets kind and samples.
 bool drive_read_track(struct base_drive *drive, const char *path, struct error *error);
-void drive_free(struct base_drive *drive);
 
 /// Displacement from the start along the direction, m. All kinds have continuous velocities.
 double drive_place(const struct base_drive *drive, double time);
@@ -82,7 +82,6 @@ struct floor {
 /// A floor under the lattice's surface, as stiff as ten times the body's material, a cell thick.
 void floor_create(struct floor *floor, const struct lattice *lattice, const struct surface *surface, double height,
                   double young, double density);
-void floor_free(struct floor *floor);
 
 /// External loads: gravity, a moving base, a floor. All zero: none.
 ///
@@ -95,6 +94,7 @@ struct loads {
 };
 
 struct integrator {
+    struct pool pool; ///< has the vectors below
     struct body *body;
     struct loads loads;       ///< none at the start
     double time;              ///< s
@@ -111,7 +111,6 @@ struct integrator {
 
 /// A body at rest, undamped. The body must be ready and outlive it.
 void integrator_create(struct integrator *integrator, struct body *body, double step);
-void integrator_free(struct integrator *integrator);
 
 /// Moves the body to its equilibrium under the loads at the start, at rest. It must be pinned, or it falls for ever.
 bool integrator_find_equilibrium(struct integrator *integrator);

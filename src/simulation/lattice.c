@@ -13,7 +13,7 @@
 
 enum { VOXELS_A_CELL = 8 };
 
-/// One element for each connected piece of the solid in each tetrahedron.
+/// One element for each connected piece of the solid in each tetrahedron. All its memory is the voxels' pool.
 struct tiling {
     struct voxels voxels;
     int *element;   ///< per voxel: its element, or −1 outside
@@ -171,8 +171,9 @@ static void tiling_create(struct tiling *t, const struct solid *solid, double ce
 
     // Each voxel's tetrahedron as one number, from its face's centre and twice its edge's.
     const int count = (int)voxels_count(v);
-    int *set = need_zeroed((size_t)count, sizeof *set), key[4];
-    uint64_t *tetrahedron = need_zeroed((size_t)count, sizeof *tetrahedron);
+    struct pool work = {0};
+    int *set = pool_take(&work, (size_t)count, sizeof *set), key[4];
+    uint64_t *tetrahedron = pool_take(&work, (size_t)count, sizeof *tetrahedron);
     for (int i = 0; i < count; i++) {
         set[i] = i;
         if (!v->inside[i]) continue;
@@ -191,23 +192,23 @@ static void tiling_create(struct tiling *t, const struct solid *solid, double ce
     }
 
     // Each set of voxels is an element, with nodes and a size.
-    t->element = need((size_t)count, sizeof *t->element);
+    t->element = pool_take(&v->pool, (size_t)count, sizeof *t->element);
     memset(t->element, 0xFF, (size_t)count * sizeof *t->element); // −1
     for (int i = 0; i < count; i++) {
         if (v->inside[i]) t->element[i] = union_root(set, i) == i ? t->count++ : t->element[set[i]];
     }
     const size_t room = (size_t)t->count + 1;
-    t->filled = need_zeroed(room, sizeof *t->filled);
-    t->key = need_zeroed(room, sizeof *t->key);
-    t->node = need_zeroed(room, sizeof *t->node);
-    t->part = need_zeroed(room, sizeof *t->part);
+    t->filled = pool_take(&v->pool, room, sizeof *t->filled);
+    t->key = pool_take(&v->pool, room, sizeof *t->key);
+    t->node = pool_take(&v->pool, room, sizeof *t->node);
+    t->part = pool_take(&v->pool, room, sizeof *t->part);
     for (int i = 0; i < count; i++) {
         const int e = t->element[i];
         if (e >= 0 && t->filled[e]++ == 0) tetrahedron_at(v, i, t->key[e]);
     }
 
     // Nodes of touching elements at the same point are one.
-    int *nodes = need_zeroed(4 * room, sizeof *nodes);
+    int *nodes = pool_take(&work, 4 * room, sizeof *nodes);
     for (int i = 0; i < 4 * t->count; i++) nodes[i] = i;
     for (int i = 0; i < count; i++) {
         for (int n = 0; v->inside[i] && n < 13; n++) {
@@ -218,21 +219,8 @@ static void tiling_create(struct tiling *t, const struct solid *solid, double ce
         }
     }
     for (int i = 0; i < 4 * t->count; i++) t->node[i / 4][i % 4] = union_root(nodes, i);
-    free(nodes);
-    free(set);
-    free(tetrahedron);
+    pool_free(&work);
     find_parts(t);
-}
-
-static void tiling_free(struct tiling *t)
-{
-    voxels_free(&t->voxels);
-    free(t->element);
-    free(t->filled);
-    free(t->key);
-    free(t->node);
-    free(t->part);
-    *t = (struct tiling){0};
 }
 
 // --- lattice
@@ -351,8 +339,9 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
     const size_t kept = (size_t)t->kept, count = (size_t)surface->vertex_count;
     const struct voxels *v = &t->voxels;
     const int ny = v->size[1] / VOXELS_A_CELL * 2 + 1, nz = v->size[2] / VOXELS_A_CELL * 2 + 1;
-    int *index = need_zeroed((size_t)t->count + 1, sizeof *index); // per element: its new number
-    int *node_number = need((size_t)t->count * 4 + 1, sizeof *node_number);
+    struct pool work = {0};
+    int *index = pool_take(&work, (size_t)t->count + 1, sizeof *index); // per element: its new number
+    int *node_number = pool_take(&work, (size_t)t->count * 4 + 1, sizeof *node_number);
     memset(node_number, 0xFF, (size_t)t->count * 4 * sizeof *node_number); // −1
     lattice->node = pool_take(&lattice->pool, 4 * kept + 1, sizeof *lattice->node);
     lattice->tet = pool_take(&lattice->pool, kept + 1, sizeof *lattice->tet);
@@ -375,9 +364,9 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
             lattice->tet[k][a] = *known;
         }
     }
-    free(node_number);
 
-    double(*normal)[3] = need_zeroed(count + 1, sizeof *normal); // not normalised; 0 if its triangles are left out
+    double(*normal)[3] =
+        pool_take(&work, count + 1, sizeof *normal); // not normalised; 0 if its triangles are left out
     for (int i = 0; i < solid->shape.index_count; i++) {
         double across[3], middle[3];
         triangle_measure(&solid->shape, i / 3, across, middle);
@@ -394,7 +383,7 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
         const int below = p->top++, *from = p->size[below];
         int *size = p->size[p->top], at = 0;
         for (int c = 0; c < 3; c++) size[c] = (from[c] + 1) / 2;
-        p->any[p->top] = need_zeroed((size_t)size[0] * (size_t)size[1] * (size_t)size[2], 1);
+        p->any[p->top] = pool_take(&work, (size_t)size[0] * (size_t)size[1] * (size_t)size[2], 1);
         for (int i = 0; i < from[0]; i++) {
             for (int j = 0; j < from[1]; j++) {
                 for (int k = 0; k < from[2]; k++, at++) {
@@ -426,10 +415,8 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
         for (int a = 0; a < 4; a++) lattice->weight[i][a] = (a == 0) + vec3_dot(element.gradient[a], away);
     }
     progress_report("placing the vertices", surface->vertex_count, surface->vertex_count);
-    for (int level = 1; level <= pyramid.top; level++) free(pyramid.any[level]);
-    free(normal);
     free(used);
-    free(index);
+    pool_free(&work);
 }
 
 bool lattice_create(struct lattice *lattice, const struct surface *surface, const struct lattice_options *options,
@@ -459,11 +446,11 @@ bool lattice_create(struct lattice *lattice, const struct surface *surface, cons
         const double ratio = fmax(tried.kept, 1) / options->target;
         if (fabs(log(ratio)) < nearest) {
             nearest = fabs(log(ratio));
-            tiling_free(&tiling);
+            pool_free(&tiling.voxels.pool);
             tiling = tried;
             lattice->cell = cell;
         } else {
-            tiling_free(&tried);
+            pool_free(&tried.voxels.pool);
         }
         cell *= pow(ratio, 0.4); // the number falls with a power between 2 (all surface) and 3 (all inside)
     }
@@ -482,7 +469,7 @@ bool lattice_create(struct lattice *lattice, const struct surface *surface, cons
             cell = coarse_enough(&solid, lattice->cell * exp(-away / 3));
             tiling_create(&tried, &solid, cell, options->layer);
             const double now = log(swelling(&tried, volume));
-            tiling_free(fabs(now) < progress * fabs(away) ? &tiling : &tried);
+            pool_free(fabs(now) < progress * fabs(away) ? &tiling.voxels.pool : &tried.voxels.pool);
             if (!(fabs(now) < progress * fabs(away))) break;
             away = now;
             lattice->cell = cell;
@@ -493,15 +480,9 @@ bool lattice_create(struct lattice *lattice, const struct surface *surface, cons
                      exact ? "" : ", as thin as so few tetrahedra can be");
         build_lattice(lattice, &tiling, surface, &solid);
     }
-    tiling_free(&tiling);
-    solid_free(&solid);
+    pool_free(&tiling.voxels.pool);
+    pool_free(&solid.pool);
     return good;
-}
-
-void lattice_free(struct lattice *lattice)
-{
-    pool_free(&lattice->pool);
-    *lattice = (struct lattice){0};
 }
 
 void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*position)[3])

@@ -59,13 +59,13 @@ struct winding {
     int node_count;
 };
 
-/// The surface must outlive it.
-void winding_create(struct winding *winding, const struct surface *surface);
-void winding_free(struct winding *winding);
+/// The surface must outlive it; its memory is the pool's.
+void winding_create(struct winding *winding, struct pool *pool, const struct surface *surface);
 
 double winding_at(const struct winding *winding, const double point[3]);
 
 struct solid {
+    struct pool pool;       ///< has the triangles and the tree
     struct surface shape;   ///< the surface with its own triangles; the rest is borrowed
     int duplicates;         ///< triangles left out because another has the same corners
     int turned;             ///< triangles turned round
@@ -77,7 +77,6 @@ struct solid {
 
 /// The surface must outlive the solid. `thickness` 0: a body.
 void solid_create(struct solid *solid, const struct surface *surface, double thickness);
-void solid_free(struct solid *solid);
 
 /// How sure the inside is: the mean winding number, at most 1, just behind a surface. Near 1: closed but for holes; 1/2: a flat sheet, or
 /// one-sided.
@@ -90,6 +89,7 @@ void solid_describe(const struct solid *solid, char text[160]);
 
 /// Cubes of edge `spacing`; the one at (i, j, k) is number (i·size[1] + j)·size[2] + k and centred at origin + (i + ½, …)·spacing.
 struct voxels {
+    struct pool pool; ///< has `inside`, and what the caller adds
     int size[3];
     double origin[3], spacing; ///< m
     uint8_t *inside;           ///< 1 where the centre is inside
@@ -105,7 +105,6 @@ static inline double sheet_thickness(const struct solid *solid, const struct vox
 
 /// Fills `inside` for the given grid, which must contain the solid: 1 if the winding number is not 0 or, of an open surface, above ½.
 void voxels_fill(struct voxels *voxels, const struct solid *solid);
-void voxels_free(struct voxels *voxels);
 
 static inline size_t voxels_count(const struct voxels *voxels)
 {
@@ -140,7 +139,6 @@ struct lattice_options {
 /// Errors: no volume, a sheet without thickness. `name` is the surface's, for messages.
 bool lattice_create(struct lattice *lattice, const struct surface *surface, const struct lattice_options *options,
                     const char *name, struct error *error);
-void lattice_free(struct lattice *lattice);
 
 /// Spreads a number per vertex to the nodes: the mean of the vertices around each node, elsewhere of the nodes nearby.
 void lattice_spread(const struct lattice *lattice, const double *vertex, double *node);

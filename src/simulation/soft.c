@@ -357,9 +357,9 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
 
 void soft_free(struct soft *soft)
 {
-    lattice_free(&soft->lattice);
-    body_free(&soft->body);
-    modes_free(&soft->modes);
+    pool_free(&soft->lattice.pool);
+    pool_free(&soft->body.pool);
+    pool_free(&soft->modes.pool);
     *soft = (struct soft){0};
 }
 

@@ -84,21 +84,14 @@ static int build_node(struct winding *w, int first, int count, int depth)
     return number;
 }
 
-void winding_create(struct winding *winding, const struct surface *surface)
+void winding_create(struct winding *winding, struct pool *pool, const struct surface *surface)
 {
     const int triangles = surface->index_count / 3;
     *winding = (struct winding){.surface = surface};
-    winding->order = need((size_t)triangles + 1, sizeof *winding->order);
-    winding->nodes = need(2 * (size_t)triangles + 1, sizeof *winding->nodes);
+    winding->order = pool_take(pool, (size_t)triangles + 1, sizeof *winding->order);
+    winding->nodes = pool_take(pool, 2 * (size_t)triangles + 1, sizeof *winding->nodes);
     for (int i = 0; i < triangles; i++) winding->order[i] = i;
     if (triangles > 0) build_node(winding, 0, triangles, 0);
-}
-
-void winding_free(struct winding *winding)
-{
-    free(winding->order);
-    free(winding->nodes);
-    *winding = (struct winding){0};
 }
 
 double winding_at(const struct winding *winding, const double point[3])
@@ -317,29 +310,29 @@ static void report_repair(long parts) { progress_report("mending the mesh", part
 void solid_create(struct solid *solid, const struct surface *surface, double thickness)
 {
     const size_t indices = (size_t)surface->index_count + 1;
+    struct pool work = {0};
     *solid = (struct solid){.shape = *surface, .thickness = thickness};
-    solid->shape.indices = need(indices, sizeof *solid->shape.indices);
+    solid->shape.indices = pool_take(&solid->pool, indices, sizeof *solid->shape.indices);
     struct repair r = {.shape = &solid->shape,
-                       .name = need((size_t)surface->vertex_count + 1, sizeof *r.name),
-                       .edge = need(indices, sizeof *r.edge),
-                       .next = need(indices, sizeof *r.next),
-                       .turned = need_zeroed(indices, sizeof *r.turned),
-                       .patch = need(indices, sizeof *r.patch)};
+                       .name = pool_take(&work, (size_t)surface->vertex_count + 1, sizeof *r.name),
+                       .edge = pool_take(&work, indices, sizeof *r.edge),
+                       .next = pool_take(&work, indices, sizeof *r.next),
+                       .turned = pool_take(&work, indices, sizeof *r.turned),
+                       .patch = pool_take(&work, indices, sizeof *r.patch)};
     memcpy(solid->shape.indices, surface->indices, (indices - 1) * sizeof *surface->indices);
 
     report_repair(0); // vertices at the same place get one name
-    struct spot *spots = need((size_t)surface->vertex_count, sizeof *spots);
+    struct spot *spots = pool_take(&work, (size_t)surface->vertex_count, sizeof *spots);
     spots_sort((const float(*)[3])surface->position, surface->vertex_count, spots);
     for (int i = 0, first = 0; i < surface->vertex_count; i++) {
         if (!spots_meet(&spots[first], &spots[i])) first = i;
         r.name[spots[i].vertex] = (uint32_t)first;
     }
-    free(spots);
     report_repair(1); // triangles without area go, and all but the first of those with the same corners
     struct surface *s = &solid->shape;
     const int triangles = s->index_count / 3;
-    struct corners *all = need((size_t)triangles + 1, sizeof *all);
-    uint8_t *dropped = need_zeroed((size_t)triangles + 1, 1);
+    struct corners *all = pool_take(&work, (size_t)triangles + 1, sizeof *all);
+    uint8_t *dropped = pool_take(&work, (size_t)triangles + 1, 1);
     int different = 0, kept = 0;
     for (int t = 0; t < triangles; t++) {
         struct corners c = {.triangle = t};
@@ -362,8 +355,6 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
         if (!dropped[t]) memmove(s->indices + 3 * kept++, s->indices + 3 * t, 3 * sizeof *s->indices);
     }
     s->index_count = 3 * kept;
-    free(all);
-    free(dropped);
 
     report_repair(2); // edges with the same ends lie together; two triangles that share one are neighbours
     uint32_t *corner = solid->shape.indices;
@@ -398,13 +389,9 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
     }
     report_repair(4);
     solid->area = whole_area(&solid->shape) / 2;
-    if (solid->open > 0) winding_create(&solid->winding, &solid->shape);
+    if (solid->open > 0) winding_create(&solid->winding, &solid->pool, &solid->shape);
     report_repair(5);
-    free(r.name);
-    free(r.edge);
-    free(r.next);
-    free(r.turned);
-    free(r.patch);
+    pool_free(&work);
 }
 
 double solid_certainty(const struct solid *solid)
@@ -427,13 +414,6 @@ double solid_certainty(const struct solid *solid)
         taken += due;
     }
     return taken > 0 ? sum / taken : 0;
-}
-
-void solid_free(struct solid *solid)
-{
-    winding_free(&solid->winding);
-    free(solid->shape.indices);
-    *solid = (struct solid){0};
 }
 
 void solid_describe(const struct solid *solid, char text[160])
@@ -683,7 +663,7 @@ void voxels_fill(struct voxels *voxels, const struct solid *solid)
 {
     const struct surface *surface = &solid->shape;
     struct crossings list = {0};
-    voxels->inside = need_zeroed(voxels_count(voxels), 1);
+    voxels->inside = pool_take(&voxels->pool, voxels_count(voxels), 1);
     if (solid->thickness > 0) {
         fill_sheet(voxels, solid);
         return;
@@ -713,10 +693,4 @@ void voxels_fill(struct voxels *voxels, const struct solid *solid)
         }
     }
     free(list.items);
-}
-
-void voxels_free(struct voxels *voxels)
-{
-    free(voxels->inside);
-    voxels->inside = NULL;
 }

@@ -111,7 +111,7 @@ TEST(eigenvalues_and_coordinates_agree_with_numpy)
     assert_near(spectrum.total, r.total, 1e-8 * r.total);
     assert_near(shares[0], r.pca1, 1e-10);
     assert_near(shares[1], r.pca2, 1e-10);
-    spectrum_free(&spectrum);
+    pool_free(&spectrum.pool);
 
     const struct analysis_plan plan = {ANALYSIS_CPCA, 24, 2, up, NULL, 0};
     struct analysis analysis;
@@ -123,7 +123,7 @@ TEST(eigenvalues_and_coordinates_agree_with_numpy)
             assert_near(cabs(shape[n] - r.shape[k][n]), 0, 1e-6);
         assert_near(analysis.components[k].explained, r.values[k] / r.total, 1e-8);
     }
-    analysis_free(&analysis);
+    pool_free(&analysis.pool);
     motion_close(&motion);
 }
 
@@ -203,7 +203,7 @@ TEST(frequency_damping_and_gauge)
     assert_true(creal(sum) >= 0);
     for (int k = 0; k < 3; k++) most = fabs(c->direction[k]) > fabs(most) ? c->direction[k] : most;
     assert_true(most > 0);
-    analysis_free(&analysis);
+    pool_free(&analysis.pool);
 }
 
 /// Vertices of even number bob up and down, odd ones by `lag` later; the record begins at rest.
@@ -226,7 +226,7 @@ TEST(lags_of_what_trails)
     assert_near(bob->last_lag - bob->first_lag, 60, 0.6);
     assert_near(bob->reach, 0.2, 0.02); // the largest |R| is at the start
     assert_near(bob->direction[1], 1, 0);
-    analysis_free(&analysis);
+    pool_free(&analysis.pool);
 
     enum { VERTICES = 101 };
     double complex shape[VERTICES][3] = {{0}};
@@ -282,7 +282,7 @@ TEST(one_complex_component_finds_a_travelling_wave)
     assert_true(analysis.pca1 < 0.6 * analysis.pca2); // real PCA takes two, about equal
     assert_true(c->explained > 0.95 * analysis.pca2); // and both together explain no more
     assert_near(c->frequency, 2, 0.01);
-    analysis_free(&analysis);
+    pool_free(&analysis.pool);
 }
 
 // --- what is odd
@@ -346,7 +346,7 @@ TEST(odd_motions_give_finite_numbers)
         assert_true(isfinite(c->first_lag) && isfinite(c->last_lag) && isfinite(c->reach));
         for (int n = 0; n < 3; n++) assert_true(isfinite(cabs(c->shape[0][n])) && isfinite(c->direction[n]));
     }
-    analysis_free(&analysis);
+    pool_free(&analysis.pool);
 }
 
 // --- poles
@@ -453,7 +453,7 @@ TEST(poles_are_found)
                             fail_msg("%g Hz, damping %g at %g a second, noise %g: off by %g and %g, overlap %g",
                                      p.frequency[k], *damping, p.fps, p.noise, f, d, same);
                     }
-                    analysis_free(&a);
+                    pool_free(&a.pool);
                 }
             }
         }
@@ -497,8 +497,8 @@ TEST(few_knots_move_it_so)
         if (!(knots.error <= 1.1 * component_error(c, c->series)))
             fail_msg("%d knots leave %g, the coordinate %g", knots.count, knots.error, component_error(c, c->series));
         assert_true(forced ? knots.count <= KNOTS_MOST : knots.count <= 2);
-        knots_free(&knots);
-        analysis_free(&a);
+        free(knots.series);
+        pool_free(&a.pool);
     }
 }
 
@@ -524,7 +524,7 @@ TEST(knots_are_exchanged_more_than_once)
     }
     knots_create(&knots, &c, 24);
     assert_near(knots.error, 0.2093, 1e-3);
-    knots_free(&knots);
+    free(knots.series);
 }
 
 /// Modes that a burst of the base at 2.75 Hz sets off, and that swing freely from 1.1 s on.
@@ -578,7 +578,7 @@ TEST(what_was_driven_has_its_poles_where_it_swings_freely)
         assert_true(overlap(&c->shape[0][0], shape, COLUMNS) > 0.99);
     }
     assert_true(a.left < 0.02); // 0.14 where time series must keep to their poles while the burst lasts
-    analysis_free(&a);
+    pool_free(&a.pool);
 }
 
 /// From the driven frames come three poles, two of them with shapes of 6 and 13 m in antiphase for a motion of 1.2 m.
@@ -590,7 +590,7 @@ TEST(motions_that_cancel_are_left_out_and_said)
     assert_int_equal(a.cancelled, 1);
     for (int k = 0; k < a.count; k++) assert_true(a.components[k].reach < 2);
     assert_true(a.left < 0.2);
-    analysis_free(&a);
+    pool_free(&a.pool);
 }
 
 /// 22 Hz at 48 frames a second, and 3.
@@ -606,7 +606,7 @@ TEST(motion_near_half_the_rate_is_told)
     analyse(&a, (struct analysis_plan){ANALYSIS_POLES, 48, 2, NULL, NULL, 0}, 192, VERTICES, quick, NULL);
     assert_near(a.fast_share, 1 / 3.0, 0.02); // powers go as 1 / damping
     assert_near(component_near(&a, 22)->frequency, 22, 0.01);
-    analysis_free(&a);
+    pool_free(&a.pool);
 }
 
 // --- how a base carries a body is taken out of its motion
@@ -704,9 +704,9 @@ TEST(a_swing_is_found_on_a_base_that_moves)
             const double same = overlap(&a.components[0].shape[0][0], &b->shape[0][0], 3 * COLUMN);
             if (!(same > (b->known ? 1 - 1e-6 : 0.9998)))
                 fail_msg("%g m/s², %g m, %g°: overlap %g", b->push, b->sway, b->turn, same);
-            analysis_free(&a);
+            pool_free(&a.pool);
         }
-        rigid_free(&base);
+        pool_free(&base.pool);
         motion_close(&motion);
     }
 }

@@ -173,9 +173,9 @@ static void beam_open(struct beam *beam, const int cells[3], double edge, double
 
 static void beam_close(struct beam *beam)
 {
-    if (beam->integrator.work) integrator_free(&beam->integrator);
-    modes_free(&beam->modes);
-    body_free(&beam->body);
+    if (beam->integrator.work) pool_free(&beam->integrator.pool);
+    pool_free(&beam->modes.pool);
+    pool_free(&beam->body.pool);
     free(beam->rest);
     free(beam->force);
     free(beam->tet);
@@ -193,7 +193,7 @@ static double forces_of(struct beam *beam, double (*x)[3])
 
 static void integrate_by(struct beam *beam, double step, double tolerance)
 {
-    if (beam->integrator.work) integrator_free(&beam->integrator);
+    if (beam->integrator.work) pool_free(&beam->integrator.pool);
     integrator_create(&beam->integrator, &beam->body, step);
     if (tolerance > 0) beam->integrator.tolerance = tolerance;
 }

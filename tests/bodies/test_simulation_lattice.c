@@ -59,7 +59,7 @@ static void add_sphere(struct cut *cut)
 
 static void cut_free(struct cut *cut)
 {
-    lattice_free(&cut->lattice);
+    pool_free(&cut->lattice.pool);
     surface_free(&cut->surface);
 }
 
@@ -70,7 +70,7 @@ static void cut_free(struct cut *cut)
 static bool cut_as(struct cut *cut, int target, double thickness, struct error *error)
 {
     const struct lattice_options options = {target, NAN, thickness};
-    lattice_free(&cut->lattice);
+    pool_free(&cut->lattice.pool);
     return lattice_create(&cut->lattice, &cut->surface, &options, "x", error);
 }
 
@@ -111,8 +111,8 @@ SPHERE_TEST(voxels_inside_a_sphere)
         double distance = 0.05 * sqrt(pow(i / (41 * 41) - 20, 2) + pow(i / 41 % 41 - 20, 2) + pow(i % 41 - 20, 2));
         if (distance < 0.99 || distance > 1.0001) assert_int_equal(voxels.inside[i], distance < 0.99);
     }
-    voxels_free(&voxels);
-    solid_free(&solid);
+    pool_free(&voxels.pool);
+    pool_free(&solid.pool);
 }
 
 /// In about as many tetrahedra as asked, of its volume, and as symmetric as the mesh. The vertices stay where they are at rest, and follow any
@@ -159,25 +159,24 @@ SPHERE_TEST(a_sphere_is_filled_evenly_and_followed)
 SPHERE_TEST(the_tree_sums_like_all_triangles)
 {
     struct winding winding;
-    winding_create(&winding, &cut->surface);
+    struct pool pool = {0};
+    winding_create(&winding, &pool, &cut->surface);
     for (int i = 0; i < 200; i++) {
         const double r = i * 0.015, p[3] = {r * 0.6, r * 0.64, r * -0.48};
         if (fabs(r - 1) > 0.01) assert_near(winding_at(&winding, p), r < 1, 0.01);
     }
-    winding_free(&winding);
     cut->surface.index_count /= 2; // the upper half: seen from its middle, half of all directions
-    winding_create(&winding, &cut->surface);
+    winding_create(&winding, &pool, &cut->surface);
     assert_near(winding_at(&winding, (const double[3]){0, 0, 0}), 0.5, 0.01);
-    winding_free(&winding);
 
     static const int corners[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     struct cut few = {0}; // so few triangles that they are no tree
     for (int v = 0; v < 4; v++) add_vertex(&few, v == 1, v == 2, v == 3);
     for (int t = 0; t < 4; t++) add_triangle(&few, corners[t][0], corners[t][1], corners[t][2]);
-    winding_create(&winding, &few.surface);
+    winding_create(&winding, &pool, &few.surface);
     assert_near(winding_at(&winding, (const double[3]){0.2, 0.2, 0.2}), 1, 1e-6);
     assert_near(winding_at(&winding, (const double[3]){0.5, 0.5, 0.5}), 0, 1e-6);
-    winding_free(&winding);
+    pool_free(&pool);
     surface_free(&few.surface);
 }
 
@@ -287,7 +286,7 @@ TEST(open_edges_are_counted)
         for (int i = 0; kind == 2 && i < s->index_count; i++) s->indices[i] += 8 * (uint32_t)(i % 3);
         struct solid solid = solid_of(&box);
         assert_int_equal(solid.open, open[kind]);
-        solid_free(&solid);
+        pool_free(&solid.pool);
         cut_free(&box);
     }
 }
@@ -305,7 +304,7 @@ CUT_TEST(mixed_sides_are_made_to_agree, add_box(cut, 0, 0, 0, 4, 4, 4))
     struct solid solid = solid_of(cut);
     assert_int_equal(solid.open, 0);
     assert_int_equal(solid.turned, 4 + 12);
-    solid_free(&solid);
+    pool_free(&solid.pool);
     assert_string_equal(cut_into(cut, 2000)->repair, "16 triangles turned to face outwards");
     assert_near(filled_volume(cut), 64 - 1 + 4, 2);
 }
@@ -422,7 +421,7 @@ TEST(sheets_need_a_thickness_and_bodies_do_not)
                 fail_msg("%s: %d parts, %g of its volume", rows[row].name, cut.lattice.part_count, share);
             for (int i = 0; i < 4 * cut.surface.vertex_count; i++)
                 assert_true(cut.lattice.weight[i / 4][i % 4] > -0.5);
-            solid_free(&solid);
+            pool_free(&solid.pool);
         }
         cut_free(&cut);
     }

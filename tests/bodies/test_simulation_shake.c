@@ -40,8 +40,8 @@ static void integrate_by(struct box *b, double step, double tolerance)
 
 static void box_close(struct box *b)
 {
-    if (b->integrator.work) integrator_free(&b->integrator);
-    floor_free(&b->floor);
+    if (b->integrator.work) pool_free(&b->integrator.pool);
+    pool_free(&b->floor.pool);
     soft_free(&b->soft);
 }
 
@@ -327,7 +327,7 @@ TEST(a_track_is_smooth)
         const double bend = drive_place(&drive, t + h) - 2 * drive_place(&drive, t) + drive_place(&drive, t - h);
         assert_near(drive_acceleration(&drive, t), bend / (h * h), 0.01);
     }
-    drive_free(&drive);
+    pool_free(&drive.pool);
 }
 
 /// Numbers that a spline through them would leave the finite ones with are refused with their line.
@@ -355,6 +355,6 @@ TEST(a_track_stays_finite)
             assert_true(isfinite(drive_place(&drive, drive.time[k])));
             assert_true(isfinite(drive_acceleration(&drive, drive.time[k])));
         }
-        drive_free(&drive);
+        pool_free(&drive.pool);
     }
 }

@@ -246,7 +246,7 @@ static void read_track(const char *path)
         expect(isfinite(drive_place(&drive, drive.time[i])), "a track's places are finite");
         expect(isfinite(drive_acceleration(&drive, drive.time[i])), "a track's accelerations are finite");
     }
-    drive_free(&drive);
+    pool_free(&drive.pool);
 }
 
 static void read_log(const char *path)
