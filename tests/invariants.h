@@ -5,7 +5,7 @@
 
 #include "documents.h"
 
-#include "scene/order.h"
+#include "scene/document.h"
 
 static inline int compare_ids(const void *a, const void *b)
 {

@@ -9,7 +9,7 @@
 ///     ⎣ ·            ·            ·             −Mxx−Myy+Mzz⎦
 ///
 /// A point or a line leaves rotations open. A little weight on the identity chooses the smallest.
-#include "analysis/rigid.h"
+#include "analysis/analysis.h"
 #include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "base/file.h"
 #include "model/figure.h"
 #include "model/gltf_write.h"
-#include "model/surface_readers.h"
+#include "model/surface.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

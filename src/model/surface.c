@@ -3,7 +3,7 @@
 #include "base/need.h"
 #include "base/png.h"
 #include "model/adjacency.h"
-#include "model/surface_readers.h"
+#include "model/surface.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "base/npy.h"
 #include "base/png.h"
 #include "base/progress.h"
-#include "model/surface_readers.h"
+#include "model/surface.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,6 @@
 #include "base/names.h"
 #include "base/need.h"
 #include "scene/fields.h"
-#include "scene/order.h"
 #include "scene/pins.h"
 #include <ctype.h>
 #include <limits.h>

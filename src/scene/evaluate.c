@@ -3,7 +3,6 @@
 #include "base/hash.h"
 #include "base/need.h"
 #include "maths/maths.h"
-#include "scene/order.h"
 #include "scene/pins.h"
 #include "scene/text.h"
 #include "spline/slope.h"

@@ -4,7 +4,6 @@
 #include "base/json.h"
 #include "base/need.h"
 #include "scene/fields.h"
-#include "scene/order.h"
 #include "scene/pins.h"
 #include "scene/text.h"
 #include "scene/warnings.h"

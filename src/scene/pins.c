@@ -1,7 +1,6 @@
 /// Keeps pins in order and checks them; finds groups of splines and the order to solve them in.
 #include "scene/pins.h"
 #include "base/need.h"
-#include "scene/order.h"
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>

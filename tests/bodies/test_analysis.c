@@ -1,7 +1,6 @@
 /// The analysis against an independent computation (tests/analysis/reference.py), and against what was planted in the data: frequency, damping
 /// and shape, whatever the frame rate and noise, on a base that rests or moves.
 #include "analysis/analysis.h"
-#include "analysis/rigid.h"
 #include "analysis/spectrum.h"
 #include "model/motion.h"
 #include "near.h"

@@ -5,7 +5,6 @@
 
 #include "base/file.h"
 #include "scene/evaluate.h"
-#include "scene/order.h"
 #include "spline/desc.h"
 
 // --- the scenes that rows are about

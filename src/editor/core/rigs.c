@@ -8,7 +8,6 @@
 #include "editor/core/view.h"
 #include "rig/import.h"
 #include "rig/models.h"
-#include "scene/order.h"
 #include "scene/pins.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -6,7 +6,6 @@
 #include "editor/core/rigs.h"
 #include "editor/core/view.h"
 #include "maths/maths.h"
-#include "scene/order.h"
 #include "scene/warnings.h"
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,6 @@
 #include "editor/core/view.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/state.h"
-#include "scene/order.h"
 #include "scene/text.h"
 #include "scene/warnings.h"
 #include <math.h>
