@@ -19,19 +19,34 @@ struct stage_colors {
     uint32_t bounce; ///< light from the ground
 };
 
+/// All colours but those of the stage and of splines: in the dark and in the light theme.
+#define THEME_COLORS(COLOR)                                                                                          \
+    COLOR(panel, 0x14171CFFu, 0xF8F9FBFFu)                                                                           \
+    COLOR(border, 0x262B33FFu, 0xD3D9E1FFu)                                                                          \
+    COLOR(raised, 0x1B1F26FFu, 0xEAEEF3FFu)  /* fields and buttons */                                                \
+    COLOR(fill, 0x2B313BFFu, 0xD5DCE5FFu)    /* filled part of a bar, chosen segment */                              \
+    COLOR(hover, 0x363D49FFu, 0xC8D1DCFFu)   /* the same under the pointer */                                        \
+    COLOR(control, 0x666E7AFFu, 0x7C8693FFu) /* outlines and thumbs of controls */                                   \
+    COLOR(text, 0xD7DCE3FFu, 0x1C222BFFu)                                                                            \
+    COLOR(text_dim, 0xA6AEBAFFu, 0x4D5764FFu)                                                                        \
+    COLOR(accent, 0xFFB000FFu, 0x935600FFu)                                                                          \
+    COLOR(warning, 0xE3B34FFFu, 0x8A5300FFu)                                                                         \
+    COLOR(error, 0xE0705AFFu, 0xB3301BFFu)                                                                           \
+    COLOR(veil, 0x0000008Cu, 0x1C222B66u)    /* over everything behind a dialog; a popup's shadow */                 \
+    COLOR(outside, 0x0F1216FFu, 0xEBEEF2FFu) /* plot outside the scene's range */                                    \
+    COLOR(grid_minor, 0x1B1F26FFu, 0xEFF1F5FFu)                                                                      \
+    COLOR(grid_major, 0x262B33FFu, 0xE0E5EBFFu)                                                                      \
+    COLOR(zero, 0x3A414CFFu, 0xB9C2CDFFu)                                                                            \
+    COLOR(equilibrium, 0x9AA3AFFFu, 0x6B7684FFu)                                                                     \
+    COLOR(playhead, 0xF4F1E8FFu, 0x2A313BFFu)
+
 /// Text colours (text, text_dim, accent, warning, error) have a contrast of at least 4.5:1 on panel and raised, `text` and `text_dim` also
 /// on fill, hover and stage. `control`, spline colours and other non-text colours have 3:1. tests/draw/test_theme.c lists the pairs.
 struct theme {
     const char *name; ///< in settings and on the command line
-    uint32_t panel, border;
-    uint32_t raised;      ///< fields and buttons
-    uint32_t fill, hover; ///< filled part of a bar, chosen segment; the same under the pointer
-    uint32_t control;     ///< outlines and thumbs of controls
-    uint32_t text, text_dim, accent, warning, error;
-    uint32_t veil;    ///< over everything behind a dialog; a popup's shadow
-    uint32_t outside; ///< plot outside the scene's range
-    uint32_t grid_minor, grid_major, zero;
-    uint32_t equilibrium, playhead;
+#define THEME_MEMBER(name, dark, light) uint32_t name;
+    THEME_COLORS(THEME_MEMBER)
+#undef THEME_MEMBER
     struct stage_colors stage;
     uint32_t spline[THEME_SPLINE_COLORS];
 };
