@@ -445,7 +445,6 @@ const struct command commands[] = {
     ALSO("mute eye", "Hide the spline, or show it", NOTHING, 0, SPLINE, 0, .core = spline_list_change, LIST_HIDE,
          {0}),
     PALETTE("Phase map on or off", PAINT, .core = core_flip, SWITCH_PHASE_MAP),
-    PALETTE("Stiff twin on or off", CHARACTER, .core = core_flip, SWITCH_TWIN),
     ALSO("clean reset", "Remove all paint", NOTHING, 0, PAINT, 0, .core = characters_clean_paint, 0, {0}),
     ALSO("flip symmetry", "Mirror the chain to the other side", NOTHING, 0, TWIN, 0, .inspector = inspector_mirror, 0,
          {0}),

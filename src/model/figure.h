@@ -1,4 +1,4 @@
-/// A character prepared for drawing: derivatives for its normals, a coarser mesh for pairs, its ground contact.
+/// A character prepared for drawing: derivatives for its normals, a coarser mesh for scenes of several, its ground contact.
 ///
 /// The deformation D(j) = Re(z Ñ_j) moves the surface's tangents t₁, t₂ = n × t₁ to tᵢ + ∂D/∂tᵢ, and the normal to the
 /// cross product of both (the cofactors of the surface's deformation gradient applied to n). So each coordinate comes with its

@@ -428,17 +428,13 @@ SESSION_TEST(test_a_character_is_edited_live, open_puppet(s, "", "{'name': 'a', 
     hands(s, "click drive.0.remove; is rigs.0.coordinates.# 1; is rigs.0.coordinates.0.name b; undone");
 }
 
-/// The map of phases, the twin beside it, and the stiff look.
+/// The map of phases, and the stiff look.
 SESSION_TEST(test_views_of_a_character, open_puppet(s, "", "{'name': 'a', 'spline': 's'}"))
 {
     const struct stage_character *const it = on_stage(s, 0);
     assert_int_equal(it->map_coordinate, -1);
     hands(s, "click phases.z; wait");
     assert_true(it->map_coordinate == 0 && it->map_axis == 2);
-    hands(s, "click twin.on; wait; is stage.characters 2");
-    assert_true(it[0].coarse && it[1].coarse);
-    assert_true(it[1].position[0] - it[0].position[0] > 1.0f);
-    assert_near(it[1].morph.weight[0][1], 0, 0);
     hands(s, "kept; label; key Right");
     assert_true(fabsf(it->morph.weight[0][1]) > 1e-3f);
     session_key(s, 'V', 0);

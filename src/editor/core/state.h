@@ -254,8 +254,7 @@ struct brush {
     X(NORMALISE, false, "All curves share one axis again.",                                                          \
       "Normalised: every curve is as high as the active one. The axis shows the active curve's values.")             \
     X(RECORD, false, "Recording is off.", "The next drag of the body is recorded.")                                  \
-    X(PHASE_MAP, false, "Phase map off.", "Phase map on: the colour of a point is its phase.")                       \
-    X(TWIN, false, "Stiff twin off.", "Stiff twin on: beside the character, one that moves without phases.")
+    X(PHASE_MAP, false, "Phase map off.", "Phase map on: the colour of a point is its phase.")
 
 enum view_switch {
 #define SWITCH(name, starts, said_off, said_on) SWITCH_##name,

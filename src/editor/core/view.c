@@ -328,7 +328,7 @@ void core_flip(struct core *core, int which)
     bool *on = &core->view.on[which];
     *on = !*on;
     core->view.refit_curves |= which == SWITCH_NORMALISE;
-    core->view.refit_stage |= which == SWITCH_TWIN || which == SWITCH_ORIGINAL;
+    core->view.refit_stage |= which == SWITCH_ORIGINAL;
     core_message(core, false, "%s", said[which][*on]);
 }
 

@@ -721,13 +721,9 @@ static void build_brush(struct inspector *in)
 void inspector_character(struct inspector *in)
 {
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
-    static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
     static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "On"}};
     static const struct row phases = {NAMED("phases", "phases"),
                                       .hint = "Colour each point by its phase along x, y or z", CHOICES(maps)};
-    static const struct row twin = {NAMED("twin", "stiff twin"),
-                                    .hint = "Show a second character without phases: all its points move in step",
-                                    CHOICES(pairs)};
     struct character_view *view = &in->core->focus.characters;
     inspector_find_rig(in); // a row may have removed one
     const struct character_rig *rig = document_character(in->core->document, view->character);
@@ -790,14 +786,10 @@ void inspector_character(struct inspector *in)
     }
 
     bool *on = in->core->view.on;
-    int map = on[SWITCH_PHASE_MAP] ? 1 + view->axis : 0, pair = on[SWITCH_TWIN];
+    int map = on[SWITCH_PHASE_MAP] ? 1 + view->axis : 0;
     if (inspector_choice(in, &phases, &map)) {
         on[SWITCH_PHASE_MAP] = map > 0;
         if (map > 0) view->axis = map - 1;
-    }
-    if (inspector_choice(in, &twin, &pair)) {
-        on[SWITCH_TWIN] = pair;
-        in->core->view.refit_stage = true;
     }
     build_overlays(in);
     build_brush(in);

@@ -20,20 +20,13 @@ enum { BOUND_STEPS = 30 };
 
 static const float FRONT_SHARE = 0.1f; ///< weight of depth, to prefer front vertices
 
-#define PAIR_GAP 0.58f /* from the middle to each of a pair, in widths of the character */
-
-/// Each one's distance from the middle of a pair.
-static float pair_offset(const struct figure *figure) { return PAIR_GAP * (figure->hi[0] - figure->lo[0]); }
-
-/// A figure on the stage, `aside` metres beside its rig's place.
-static void add_character(struct stage *stage, const struct core *core, int rig, int n, float aside)
+static void pose_soft(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
     const struct character_view *how = &core->focus.characters;
     const struct character_rig *character = &core->document->rigs[rig]->character;
-    struct posing posing = stage_posing_by_hand(stage);
+    const struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose posed;
-    if (aside > 0) posing.look = LOOK_STIFF;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
     if (!rig_pose(&posing, rig, core->view.playback.position, NULL, &posed)) return;
     const struct figure *figure = posed.character.figure;
@@ -41,12 +34,10 @@ static void add_character(struct stage *stage, const struct core *core, int rig,
     *shown = (struct stage_character){.figure = figure,
                                       .morph = posed.character.morph,
                                       .rig = n,
-                                      .is_twin = aside > 0,
-                                      .coarse = core->view.on[SWITCH_TWIN] ||
-                                                document_count_rigs(core->document, RIG_CHARACTER) > 1,
+                                      .coarse = document_count_rigs(core->document, RIG_CHARACTER) > 1,
                                       .map_coordinate = -1,
                                       .map_axis = how->axis};
-    for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k] + (k == 0 ? aside : 0.0f);
+    for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k];
     const int drive = how->drive < character->drive_count ? how->drive : 0;
     const bool is_painted = core->focus.brush.on && n == how->character;
     if ((core->view.on[SWITCH_PHASE_MAP] || is_painted) && character->drive_count > 0)
@@ -61,23 +52,6 @@ static void add_character(struct stage *stage, const struct core *core, int rig,
         const struct sole *sole = &figure->soles[s];
         if (sole->radius > 0.0f) stage_add_blob(view, p[0] + sole->x, p[2] + sole->z, 1.35f * sole->radius, 0.7f);
     }
-}
-
-static void pose_soft(struct stage *stage, const struct core *core, int rig, int n)
-{
-    const struct figure *figure = models_figure(core->models, n);
-    if (!figure) return;
-    if (!core->view.on[SWITCH_TWIN]) {
-        add_character(stage, core, rig, n, 0.0f);
-    } else {
-        add_character(stage, core, rig, n, -pair_offset(figure));
-        add_character(stage, core, rig, n, pair_offset(figure));
-    }
-}
-
-static float character_aside(const struct core *core, int n)
-{
-    return core->view.on[SWITCH_TWIN] ? pair_offset(models_figure(core->models, n)) : 0.0f;
 }
 
 static uint64_t hash_characters(uint64_t sum, const struct stage_view *view)
@@ -95,8 +69,7 @@ static uint64_t hash_characters(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind character_stage = {
-    .pose = pose_soft, .bound_steps = BOUND_STEPS, .aside = character_aside, .hash = hash_characters};
+const struct stage_kind character_stage = {.pose = pose_soft, .bound_steps = BOUND_STEPS, .hash = hash_characters};
 
 /// The vertex seen at a share of the width and height from the front, at rest.
 bool find_character(void *room, const struct core *core, const struct target *target, float xy[2])
@@ -139,12 +112,10 @@ static struct rect characters_legend(const struct core *core)
     return (struct rect){stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
 }
 
-void characters_show(const struct stage *stage, struct core *core)
+void characters_show(struct core *core)
 {
-    static const char *const names[] = {"with phases", "without phases"}; // a line under the feet of each of a pair
     static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
     const struct coordinate *coordinate = characters_coordinate(core);
-    const struct rect r = core->view.layout.stage;
     struct drawlist *list = &core->list;
     if ((core->view.on[SWITCH_PHASE_MAP] || core->focus.brush.on) && coordinate) {
         // The legend. Angles as in the complex plane: in step to the right, a quarter ahead at the top.
@@ -185,13 +156,6 @@ void characters_show(const struct stage *stage, struct core *core)
         drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
                       theme()->text_dim, left);
     }
-    for (int i = 0; core->view.on[SWITCH_TWIN] && i < stage->view.character_count; i++) {
-        const struct stage_character *shown = &stage->view.characters[i];
-        const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
-        float xy[2];
-        if (!stage_project_point(stage, r, feet, xy)) continue;
-        show_centred(list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], theme()->text_dim);
-    }
 }
 
 // Floors: hover, vertical drags and drawing.
@@ -211,7 +175,7 @@ static const struct character_rig *floors_find(const struct stage *stage, const 
                                                const struct stage_character *shown, struct shown_floor *floor)
 {
     const struct character_rig *rig = document_character(core->document, shown->rig);
-    if (!rig || !rig->has_floor || shown->is_twin) return NULL;
+    if (!rig || !rig->has_floor) return NULL;
     static const float sides[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     const float *lo = shown->figure->lo, *hi = shown->figure->hi;
     float nearest = INFINITY;

@@ -600,16 +600,6 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
     return hover;
 }
 
-/// The next pin with a marker. Characters of a pair stand aside, so their pins have none.
-static const struct pin *next_marker(const struct core *core, struct pin_place *place)
-{
-    const struct pin *pin;
-    do {
-        pin = pins_next(core->document, place);
-    } while (pin && core->view.on[SWITCH_TWIN] && core->document->rigs[place->rig]->kind == RIG_CHARACTER);
-    return pin;
-}
-
 static bool project_place(const struct stage *stage, const struct core *core, const double place[3], float xy[2])
 {
     const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
@@ -625,7 +615,7 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
 
     // The marker under the point: the selected one, else the nearest.
     struct pin_place place = PINS_START;
-    for (const struct pin *pin; (pin = next_marker(core, &place));) {
+    for (const struct pin *pin; (pin = pins_next(core->document, &place));) {
         float xy[2];
         if (!project_place(stage, core, pin->to, xy)) continue;
         float distance = maths_hypotf(xy[0] - x, xy[1] - y);
@@ -635,7 +625,7 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
         hover = (struct hover){
             .thing = &thing_pin, .rig = place.rig, .joint = pin->point, .pin = pin->id, .x = xy[0], .y = xy[1]};
     }
-    if (hover.thing || found->thing || core->view.on[SWITCH_TWIN]) return hover;
+    if (hover.thing || found->thing) return hover;
 
     // A vertex, cached while pointer and picture stay. Playback under a still pointer highlights nothing.
     struct pointed *pointed = &stage->pointed;
@@ -808,7 +798,7 @@ void pins_show(struct stage *stage, struct core *core)
     const struct pin *chosen = pins_selected(core, &rig);
     if (chosen && point_exists(core, (struct rig_point){rig, chosen->point}))
         path_show(stage, core, TRAIL_OF_PIN, (struct rig_point){rig, chosen->point});
-    for (const struct pin *pin; (pin = next_marker(core, &place));) {
+    for (const struct pin *pin; (pin = pins_next(core->document, &place));) {
         // The target, and a line to the point at the pin's frame if known.
         const struct pin_left *left = evaluation_pin(core->evaluation, document, place.rig, place.at);
         const bool here = document_sample(document, pin->frame) == document_sample(document, core_frame(core));

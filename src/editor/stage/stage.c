@@ -288,7 +288,7 @@ const struct stage_character *stage_character_shown(const struct stage *stage, i
 {
     for (int c = 0; c < stage->view.character_count; c++) {
         const struct stage_character *shown = &stage->view.characters[c];
-        if (shown->rig == character && !shown->is_twin) return shown;
+        if (shown->rig == character) return shown;
     }
     return NULL;
 }
@@ -300,9 +300,9 @@ void stage_vertex(const struct figure *figure, const struct morph *morph, const 
     for (int k = 0; k < 3; k++) place[k] += position[k] - (k == 1 ? figure->lo[1] : 0.0f);
 }
 
-/// Initial azimuth in radians. A single character, facing +z, is seen slightly from the side, a pair from the front. Animals are seen
+/// Initial azimuth in radians. A character, facing +z, is seen slightly from the side. Animals are seen
 /// FROM_BEHIND off straight behind, which shows tail and ears.
-static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f, FROM_BEHIND = 0.87f;
+static const float AZIMUTH = -1.13f, FROM_BEHIND = 0.87f;
 
 /// The order of posing, hashing and drawing.
 #define STAGE_ROW(constant, name) [constant] = &name##_stage,
@@ -340,13 +340,13 @@ void stage_fit(struct stage *stage, struct core *core)
     }
     core->view.camera = camera_default();
     if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
-        core->view.camera.azimuth = core->view.on[SWITCH_TWIN] ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+        core->view.camera.azimuth = AZIMUTH;
     else if (seen[RIG_MODEL] && !seen[RIG_TAIL]) { // as the first one stands
         const int rig = document_next_rig(document, RIG_MODEL, -1);
         const struct imported *first = models_imported(core->models, document, rig);
         float back[2];
         core->view.camera.azimuth =
-            first && imported_back(first, back) ? maths_atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH_OF_ONE;
+            first && imported_back(first, back) ? maths_atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH;
     }
     camera_lamp(&core->view.camera, stage->view.key_from); // fixed while the camera orbits
     stage->figure = (struct rect){0};
@@ -441,7 +441,7 @@ void stage_show(struct stage *stage, struct core *core)
     }
     overlays_show(stage, core);
     floors_show(stage, core);
-    characters_show(stage, core);
+    characters_show(core);
 
     // Names of several tails, but for those that would overlap others or whose tail's feet are behind the eye.
     const struct rect r = core->view.layout.stage;

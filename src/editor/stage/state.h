@@ -257,7 +257,7 @@ void stage_click(void *room, struct core *core, bool keep);
 double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3]);
 /// How far the pointer's movement goes along an axis whose unit is (across, up) on the screen.
 double stage_along(double across, double up, double dx, double dy);
-/// A character as shown (by its number in the document); of a pair, the one that is not stiff. NULL if not shown.
+/// A character as shown (by its number in the document). NULL if not shown.
 const struct stage_character *stage_character_shown(const struct stage *stage, int character);
 /// World position of a vertex of a character that stands at `position`.
 void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
@@ -371,7 +371,7 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
 float caption_height(struct rect place, const struct document *document);
 
 /// Legend of the phase map, and the labels of a pair.
-void characters_show(const struct stage *stage, struct core *core);
+void characters_show(struct core *core);
 
 /// Position on the segment a … b nearest to p, 0 … 1.
 static inline float segment_nearest(const float a[2], const float b[2], const float p[2])
@@ -385,7 +385,7 @@ static inline float segment_nearest(const float a[2], const float b[2], const fl
 void skin_free(struct skin *skin);
 /// Memory for the largest shown surface; allocates only if it grows.
 void skin_reserve(struct stage *stage);
-/// Poses a character's surface (by its number in the document, not its stiff twin), unless done already. False if not shown.
+/// Poses a character's surface (by its number in the document), unless done already. False if not shown.
 bool skin_pose(struct stage *stage, int character);
 /// The posed figure's surface point at a point of the stage; false if none.
 bool skin_spot(const struct stage *stage, const struct figure *figure, float x, float y, struct surface_spot *spot);
