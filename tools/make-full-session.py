@@ -35,7 +35,6 @@ def circle(start, radius):
 
 key(0, "F9")  # all sections
 scroll_inspector(2, -40)
-click(4, "widget(section.poles)")
 scroll_inspector(8, -40)
 key(10, "Home")
 key(14, "O")

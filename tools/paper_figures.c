@@ -232,11 +232,17 @@ static void svg_circle(FILE *svg, const struct filter *filter, double cx, double
 
 static void svg_response(FILE *svg, const struct filter *filter, const struct frame *f, double *hz, double *db)
 {
-    struct passband band = filter_passband(filter);
+    enum { SCAN = 20000 };
+    static const double fine = 1e-4; // Hz
+    double peak = -INFINITY;
+    int low = 0, high = SCAN; // the outermost frequencies with half the peak's power
     char text[128];
+    for (int i = 0; i <= SCAN; i++) peak = fmax(peak, filter_decibels(filter, fine * i));
+    while (filter_decibels(filter, fine * low) < peak - 10 * log10(2)) low++;
+    while (filter_decibels(filter, fine * high) < peak - 10 * log10(2)) high--;
     for (int i = 0; i < RESPONSE_POINTS; i++) {
         hz[i] = f->x0 + (f->x1 - f->x0) * i / (RESPONSE_POINTS - 1);
-        db[i] = filter_decibels(filter, hz[i]) - band.peak;
+        db[i] = filter_decibels(filter, hz[i]) - peak;
     }
     for (int level = 0; level >= -60; level -= 20) {
         svg_line(svg, f->x, at_y(f, level), f->x + f->w, at_y(f, level), grey, 1);
@@ -245,7 +251,8 @@ static void svg_response(FILE *svg, const struct filter *filter, const struct fr
     }
     svg_line(svg, at_x(f, 0), f->y, at_x(f, 0), f->y + f->h, grey, 1);
     svg_curve(svg, f, hz, db, RESPONSE_POINTS, accent, 2);
-    snprintf(text, sizeof text, "%.1f dB at 0 Hz, %.3f Hz wide at half power", band.zero, band.width);
+    snprintf(text, sizeof text, "%.1f dB at 0 Hz, %.3f Hz wide at half power", filter_decibels(filter, 0) - peak,
+             fine * (high - low));
     svg_text(svg, f->x + 8, f->y + f->h + 16, "start", text);
 }
 

@@ -411,7 +411,6 @@ const struct command commands[] = {
     PALETTE("Unfold Character: channels, paint", CHARACTER, .section = "section.character", 0),
     PALETTE("Unfold Pins", PINNABLE, .section = "section.pins", 0),
     PALETTE("Unfold Advanced: bandwidth, calm", SPLINE, .section = "section.advanced", 0),
-    PALETTE("Unfold Poles and response", SPLINE, .section = "section.poles", 0),
     ALSO("clamp lock range", "Unfold Limits and steadiness", NOTHING, 0, SPLINE, 0, .section = "section.limits", 0,
          {0}),
     PALETTE("Unfold Variation", SWING, .section = "section.variation", 0),

@@ -113,7 +113,7 @@ static void end_event(struct editor *editor)
     inspector_show_spline(editor->inspector, core->focus.active);
 }
 
-void editor_show_poles(struct editor *editor) { inspector_unfold(editor->inspector, "section.poles"); }
+void editor_show_poles(struct editor *editor) { editor->core.view.shows_poles = true; }
 
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
 {

@@ -23,7 +23,7 @@ void editor_refresh(struct editor *editor);
 /// Shows the rig the app added last, in the inspector and on the stage.
 void editor_show_last(struct editor *editor);
 
-/// Unfolds poles and response in the inspector and scrolls to them.
+/// Shows poles and response above the inspector's sections, until another scene opens.
 void editor_show_poles(struct editor *editor);
 
 /// Ends any drag, before the app edits.

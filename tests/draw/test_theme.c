@@ -32,7 +32,7 @@ TEST(contrast_is_the_definition)
 
 enum {
     PANEL = 1,         ///< of curves, inspector, status line, dialogs, help
-    FIELD = 1 << 1,    ///< fields, popups, warnings, a row under the pointer, the plot of poles
+    FIELD = 1 << 1,    ///< fields, popups, warnings, a row under the pointer
     OUTSIDE = 1 << 2,  ///< the plot before and after the scene's range
     FILL = 1 << 3,     ///< the filled part of a bar, buttons, a selected row, an icon under the pointer
     HOVER = 1 << 4,    ///< the same under the pointer; the chosen segment

@@ -94,13 +94,6 @@ SESSION_TEST(small_buttons_have_their_icons, panel_open(s, tail, 1280, 1400))
     assert_true(lines_at(s, "solo.sway") > 0);
 }
 
-/// The lines of equal damping say which they are; the lowest, at the edge, needs no number.
-SESSION_TEST(the_map_of_poles_has_its_numbers, panel_open(s, tail, 1280, 1400))
-{
-    unfold(s->editor, "section.poles");
-    hands(s, "wait 1; shows ζ 0.2; hides ζ 0");
-}
-
 /// A letter that is let go while a dialog, which no key has opened, is open is no longer held once that is closed.
 SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
 {

@@ -1,4 +1,4 @@
-/// What an animator feels first: presets, time to settle, wind-up, what is the limb's, the dice, poles dragged in the inset, what stays in its place,
+/// What an animator feels first: presets, time to settle, wind-up, what is the limb's, the dice, what stays in its place,
 /// and a sentence on every control near the pointer.
 #include "hands.h"
 
@@ -169,80 +169,6 @@ WALK(the_file_has_both_numbers_and_what_else_is_there,
      session_open(s, "{'wiggly': 1, 'frames': [0, 24], 'splines': [{'name': 'a', 'frequency': 1, 'variation': "
                      "{'seed': 7, 'amount': 0.3, 'mood': 'mild'}, 'knots': []}]}"),
      "saves \"variation\": { \"seed\": 7, \"amount\": 0.3, \"mood\": \"mild\" }")
-
-// --- poles ---
-
-static const char POLES[] =
-    "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'bandwidth': "
-    "0.1234, 'knots': [<0 0>, <36 1>]}, {'name': 'pace', 'mode': 'cubic', 'knots': [<0 1>]}, {'name': 'pluck', "
-    "'mode': 'real', 'frequency': 1, 'damping': 0.08}, {'name': 'lift', 'frequency': {'spline': 'pace'}, 'damping': "
-    "0.2, 'knots': [<10 1>]}], 'rigs': []}";
-
-static void open_poles(struct session *s, int spline)
-{
-    panel_open(s, POLES, 1280, 1400);
-    activate(s->editor, spline);
-    hands(s, "click section.poles; wait 1");
-}
-
-/// Handles moved by so many pixels, and what parameters must then be between. Of the two poles of complex mode, whichever is taken, away from
-/// the other one is wider; those of real mode mirror each other: there is one handle. A parameter that follows another spline is not torn
-/// off it.
-static const struct move {
-    int spline;
-    const char *handle;
-    int dx, dy;
-    double frequency[2], damping[2], bandwidth[2];
-} moves[] = {
-    {0, "pole.centre", 40, -15, {1.1, 2}, {0.15, 0.5}, {0.1234, 0.1234}},
-    {0, "pole.lower", -30, 0, {1, 1}, {0.099, 0.101}, {0.2, 0.5}},
-    {0, "pole.upper", 30, 0, {1, 1}, {0.099, 0.101}, {0.2, 0.5}},
-    {2, "pole.centre", 30, -10, {1.05, 24}, {0.08001, 3}, {0, 1}},
-    {3, "pole.centre", 30, -12, {0, 24}, {0.25, 3}, {0, 1}},
-};
-
-static bool is_between(const struct session *s, enum parameter p, const double range[2])
-{
-    const double value = active_spline(s->editor)->parameter[p].value;
-    return value >= range[0] && value <= range[1];
-}
-
-/// Esc takes a drag back, also from far out; undo takes back one that was kept.
-TEST(handles_set_parameters)
-{
-    for (const struct move *move = moves; move < moves + sizeof moves / sizeof *moves; move++) {
-        for (int is_kept = 0; is_kept < 2; is_kept++) {
-            struct session session, *const s = &session;
-            open_poles(s, move->spline);
-            hands(s, "keep; %s pole.upper; pull %s %d %d 1", move->spline == 2 ? "lacks" : "finds", move->handle,
-                  move->dx, move->dy);
-            if (!is_between(s, PARAMETER_FREQUENCY, move->frequency) ||
-                !is_between(s, PARAMETER_DAMPING, move->damping) ||
-                !is_between(s, PARAMETER_BANDWIDTH, move->bandwidth))
-                fail_msg("the %s of spline %d", move->handle, move->spline);
-            assert_int_equal(s->document->splines[3]->parameter[PARAMETER_FREQUENCY].track, 1);
-            if (is_kept) {
-                hands(s, "release; label Move poles; key Ctrl+Z");
-            } else {
-                session_move(s, 1140, 10); // clamped, so that it loads again
-                session_move(s, 5, 10);
-                session_frame(s);
-                assert_true(is_between(s, PARAMETER_BANDWIDTH, (const double[]){0, 1}));
-                hands(s, "key Escape");
-            }
-            hands(s, "kept; label");
-            session_close(s);
-        }
-    }
-}
-
-SESSION_TEST(arrow_keys_move_a_focused_pole, open_poles(s, 0))
-{
-    inspector_of(s->editor)->focus = panel_id(s, "pole.centre");
-    hands(s, "key 2*Right; sway.frequency 1.1 ~1e-12; key Ctrl+Z; sway.frequency 1 ~0");
-    inspector_of(s->editor)->focus = panel_id(s, "pole.lower");
-    hands(s, "key Left; sway.bandwidth 0.133 ~1e-12");
-}
 
 // --- a sentence on every control ---
 

@@ -528,7 +528,7 @@ SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
           "finds spline.sway; finds splines.add; finds more; finds look.stiff;"
           "lacks follow.frequency; lacks gain.ramp; lacks gain.curve; lacks eye.sway; lacks color.sway;"
           "lacks splines.delete; lacks section.spline; lacks section.rigs; lacks section.tail; lacks section.pins;"
-          "lacks section.poles; lacks section.history; wait; shows Wiggly; hides Spring"); // none of them is one
+          "lacks section.limits; lacks section.history; wait; shows Wiggly; hides Spring"); // none of them is one
     int count = ui->stop_count; // that Tab reaches, without headers
     for (int i = 0; i < 3 * ui->stop_count; i++) count -= ui->stop[i / 3].id == ui_id(ui, headers[i % 3]);
     assert_in_range(count, 10, 20);

@@ -81,7 +81,7 @@ static void open_failed(struct session *s)
     panel_answer(s, REQUEST_SAVE_AS, false, long_message);
 }
 
-static void open_knots(struct session *s) { unfold(s->editor, "section.poles"); }
+static void open_poles(struct session *s) { editor_show_poles(s->editor); }
 
 static void open_message(struct session *s)
 {
@@ -112,7 +112,7 @@ static const struct screen {
     {"save failed", "key Ctrl+Shift+S", open_failed, false, true, true},
     {"colours", "click section.feel; click color.sway", NULL, false, false, true},
     {"add menu", "key A", NULL, false, false, true},
-    {"one knot", "click knot(sway,1)", open_knots, false, false, true},
+    {"one knot", "click knot(sway,1)", open_poles, false, false, true},
     {"all knots", "click knot(sway,0); key Ctrl+A", NULL, false, false, true},
     {"history",
      "click preset.heavy; click preset.whip; key Ctrl+Z; click section.feel; click section.knot; click "

@@ -335,6 +335,7 @@ struct view {
     struct plotted plot;           ///< of the curves
     struct camera camera;          ///< of the stage
     bool plain;                    ///< the stage without text
+    bool shows_poles;              ///< the inspector begins with the picture for Figure 2
     bool refit_stage;              ///< editor_pose() fits the camera: what an edit adds has no place before
     bool returned;                 ///< undo gave back plot and camera
     bool refit_curves;             ///< it shows all curves: they have no values before the solve

@@ -65,7 +65,6 @@ static const struct section {
     {"section.pins", inspector_pins, .title = "Pins", .needs = TAILS | CHAINS | CHARACTERS,
      .shown = pins_any_selected},
     {"section.advanced", inspector_advanced, .title = "Advanced", .needs = SPLINE, .closed = true},
-    {"section.poles", inspector_poles, .title = "Poles and response", .needs = SPLINE, .closed = true},
     {"section.limits", inspector_limits, .title = "Limits and steadiness", .needs = SPLINE, .closed = true},
     {"section.variation", inspector_variation, .title = "Variation", .needs = SWING, .closed = true},
     {"section.scene", inspector_scene, .title = "Scene", .closed = true},
@@ -97,6 +96,7 @@ static bool build_panel(struct inspector *in, struct rect area)
     ui_list_begin(ui, &in->sections, view);
     const float offset = in->sections.offset;
     inspector_find_rig(in);
+    if (in->core->view.shows_poles) inspector_poles(in);
     for (int i = 0; i < SECTIONS; i++) {
         const struct section *section = &sections[i];
         bool *flipped = &in->flipped[i];

@@ -24,15 +24,6 @@ struct filter filter_of(enum filter_kind kind, double hz, double damping, double
 /// 20 log₁₀ |H(e^{2πj·hz·step})|, for any sign of hz. Finite even at a pole on the unit circle.
 double filter_decibels(const struct filter *filter, double hz);
 
-/// The figure's curves, from 0 to half the sample rate.
-struct passband {
-    double peak;  ///< dB
-    double zero;  ///< response at zero frequency relative to the peak, dB
-    double width; ///< Hz between the outermost points 3.01 dB (half the power) below the peak
-};
-
-struct passband filter_passband(const struct filter *filter);
-
 enum { SETTLE_LIMIT = 1000 }; ///< seconds; longer times are not reported
 
 enum settle_kind {

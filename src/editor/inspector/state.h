@@ -9,23 +9,6 @@
 
 enum { INSPECTOR_MAX_SECTIONS = 16 };
 
-enum { POLES_COLUMNS = 224 }; ///< points per response plot
-
-/// The filter at the playhead.
-struct pole_setting {
-    enum filter_kind kind; ///< two-pole real or complex
-    double hz, damping, bandwidth, step;
-};
-
-/// Responses of the filter and those it is compared with, recomputed when the setting changes. Zero is a valid start.
-struct poles_view {
-    struct pole_setting setting; ///< of the cached responses; step 0: none yet
-    struct passband band[FILTER_KINDS];
-    float decibels[FILTER_KINDS][POLES_COLUMNS]; ///< relative to each peak, from −span to span
-    double span;                                 ///< Hz
-    double reach, top; ///< Hz and damping ratio at the inset's right and top edge; constant during a drag
-};
-
 struct history_view {
     struct ui_list list; ///< in rows
     size_t count, done;  ///< of the history at the last layout
@@ -61,10 +44,12 @@ struct inspector {
     char knot_title[32];                  ///< title of the knot section
     char feel_title[96];                  ///< of that on the feel
     bool alone;                           ///< Alt was held at the last press: Feel is of the active spline alone
-    struct poles_view poles;
     struct history_view history;
     const struct dropdown *list; ///< open in this pass, or NULL
 };
+
+/// Draws the poles of the active spline in the unit circle, and its response beside the other filters'.
+void inspector_poles(struct inspector *in);
 
 /// Stands for "no limit".
 #define INSPECTOR_NO_LIMIT 1e300
@@ -80,7 +65,6 @@ void inspector_spline(struct inspector *in);
 void inspector_advanced(struct inspector *in);
 void inspector_limits(struct inspector *in);
 void inspector_variation(struct inspector *in);
-void inspector_poles(struct inspector *in);
 void inspector_knot(struct inspector *in);
 void inspector_tail(struct inspector *in);
 void inspector_character(struct inspector *in);
