@@ -61,7 +61,7 @@ static inline struct pin_point stand_find(const struct stand *stand, int rig, in
     struct pin pin = {.frame = frame, .point = point};
     int splines[64];
     for (int s = 0; s < document->spline_count; s++) splines[s] = s;
-    const struct pin_query query = {rig, &pin, splines, c ? document->spline_count : 0};
+    const struct pin_query query = {rig, &pin, splines, c ? document->spline_count : 0, 0};
     assert_true(source.find(source.context, &stand->opened.evaluation, document, &query, c, &found));
     return found;
 }

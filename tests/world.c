@@ -311,6 +311,7 @@ static int do_rig(struct document *d, const struct words *w, struct error *error
     if (is(w, "ride")) wanted = 1, changed.tail.position[NUMBER(2)] = param_track(spline_called(d, w->word[3]));
     if (is(w, "clip")) wanted = 1, changed.model.clip = w->word[2];
     if (is(w, "turn")) wanted = 1, changed.chain.turn = w->number[2];
+    if (is(w, "offset")) wanted = 1, changed.offset = w->number[2];
     if (is(w, "floor")) wanted = 1, changed.character.has_floor = true, changed.character.floor = w->number[2];
     return wanted ? edit_rig_set(d, w->rig, &changed, error) : -1;
 }

@@ -47,7 +47,7 @@ struct document *world_edit(struct world *world);
 ///     bend RIG CHANNEL SPLINE AXIS OF     channel RIG SPLINE AXIS OF        unchannel RIG CHANNEL
 ///     tail RIG SPLINE                     unrig RIG      rename RIG NAME    joints RIG COUNT
 ///     length RIG VALUE                    place RIG AXIS VALUE              ride RIG AXIS SPLINE
-///     clip RIG NAME                       turn RIG DEGREES                  floor RIG HEIGHT
+///     clip RIG NAME                       turn RIG DEGREES                  floor RIG HEIGHT                   offset RIG FRAMES
 ///     drive RIG DRIVE SPLINE AMPLITUDE LAG NAME                             undrive RIG DRIVE
 ///     pin RIG FRAME POINT X Y Z           repin RIG PIN FRAME POINT X Y Z   unpin RIG PIN
 bool world_do(struct world *world, const char *edit);

@@ -40,7 +40,7 @@ void solution_warnings(const struct document *document, const struct evaluation 
         if (!rig_has_floor(document->rigs[r]) || !left || left->depth < BELOW) continue;
         WARN(out, path,
              "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", r,
-             left->depth, document_frame(document, left->sample));
+             left->depth, document_frame(document, left->sample) + document->rigs[r]->offset);
     }
     for (int s = 0; s < document->spline_count; s++) {
         if (pins_move_spline(document, s) && spline_is_limited(document->splines[s]))

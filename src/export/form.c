@@ -20,9 +20,11 @@ static void tail_columns(const struct export_range *range, int rig, const struct
     struct strand strand;
     (void)pose;
     if (!strand_find(range->posing, rig_body(document, rig), rig, &strand)) return;
+    wiggly_value values[RIG_MAX_INPUTS];
+    posing_values(range->posing, rig, range_position(range, key), NULL, values);
     for (int c = 0; c < strand.channel_count; c++) {
         const struct channel *channel = &strand.channels[c];
-        const wiggly_value value = channel_value(range->posing, channel, range_position(range, key));
+        const wiggly_value value = values[c];
         if (!axis_bends(channel->axis))
             column(user, channel_moves(channel, value, 1, range->posing->look), "%s.%s.%s", name,
                    axis_word(channel->axis), document->splines[channel->spline]->name);

@@ -62,6 +62,8 @@ static void find_pull(const struct character_rig *rig, const struct figure *figu
     }
 }
 
+static const double SLACK = 1e-9; ///< of the size
+
 static bool character_find(const struct posing *posing, const struct pin_query *query, pin_pull *c,
                            struct pin_point *point)
 {
@@ -70,12 +72,15 @@ static bool character_find(const struct posing *posing, const struct pin_query *
     const int vertex = query->pin->point;
     wiggly_value values[RIG_MAX_INPUTS];
     if (!figure || vertex >= figure->character.vertex_count) return false;
-    posing_values(posing, query->rig, document_sample(posing->document, query->pin->frame), NULL, values);
-    *point = (struct pin_point){.is_linear = true};
+    const double sample = document_sample(posing->document, query->pin->frame) + query->later;
+    const double read = sample - document_delay(posing->document, query->rig);
+    posing_values(posing, query->rig, sample, NULL, values);
+    *point = (struct pin_point){.is_linear = read == rint(read)}; // in x of that sample
     for (int k = 0; k < 3; k++) {
         point->size = maths_hypot(point->size, (double)(figure->hi[k] - figure->lo[k]));
         point->at[k] = character->position[k] + (double)figure->character.position[vertex][k];
     }
+    point->slack = SLACK * point->size;
     point->at[1] -= (double)figure->lo[1];
     for (int d = 0; d < character->drive_count; d++) {
         const int coordinate = figure_find(figure, character->drives[d].name);

@@ -30,21 +30,16 @@ void posing_values(const struct posing *posing, int index, double position, cons
     int count;
     const struct channel *channels = rig_channels(rig, &count);
     const int inputs = rig_input_count(rig);
+    position -= document_delay(posing->document, index);
     for (int i = 0; i < inputs; i++) {
-        values[i] = i < count ? channel_value(posing, &channels[i], position)
-                              : evaluation_at(posing->evaluation, rig_input(rig, i), position);
+        const int spline = i < count ? channels[i].spline : rig_input(rig, i);
+        values[i] = evaluation_at(posing->evaluation, spline, position);
+        if (i < count && channels[i].of == PART_DISPLACEMENT)
+            values[i].y = evaluation_offset(posing->evaluation, posing->document, spline, position);
         values[i].y += sum.input[i].y;
         values[i].re += sum.input[i].re;
         values[i].im += sum.input[i].im;
     }
-}
-
-wiggly_value channel_value(const struct posing *posing, const struct channel *channel, double position)
-{
-    wiggly_value value = evaluation_at(posing->evaluation, channel->spline, position);
-    if (channel->of == PART_DISPLACEMENT)
-        value.y = evaluation_offset(posing->evaluation, posing->document, channel->spline, position);
-    return value;
 }
 
 bool rig_pose(const struct posing *posing, int index, double position, const struct by_hand *by_hand,

@@ -73,10 +73,12 @@ int rig_body(const struct document *document, int rig);
 /// The box around a posed rig that is a body, metres.
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 
-/// A channel's value at a position. Of PART_DISPLACEMENT y is how far settling knots have moved the equilibrium, without what that follows.
-wiggly_value channel_value(const struct posing *posing, const struct channel *channel, double position);
+/// The values of a rig's inputs, read its offset earlier, including motion by hand. Of PART_DISPLACEMENT y is how far settling knots have moved
+/// the equilibrium, without what that follows.
+void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                   wiggly_value values[RIG_MAX_INPUTS]);
 
-/// The angle, radians, by which a channel bends joint n of `joints` (eq. 27): gain·(y + Re(e^{−j·lag} x)) of a channel_value(). LOOK_STIFF takes
+/// The angle, radians, by which a channel bends joint n of `joints` (eq. 27): gain·(y + Re(e^{−j·lag} x)) of its value. LOOK_STIFF takes
 /// every lag as 0.
 double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look);
 
@@ -131,10 +133,6 @@ bool posing_clip_loops(const struct document *document, const struct clip_play *
 /// The time in a clip, seconds, at a position in samples, for gltf_pose_loop(). A clip that loops starts again after its length; one that plays
 /// once stays at its end. Before its first key a clip waits there, unless it loops in the scene.
 double posing_clip_time(const struct document *document, double position, const struct clip_play *play);
-
-/// The values of a rig's inputs, including motion by hand.
-void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                   wiggly_value values[RIG_MAX_INPUTS]);
 
 /// Its displacement by hand, metres.
 void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);

@@ -503,7 +503,7 @@ static bool strand_find_pin(const struct posing *posing, const struct pin_query 
                             struct pin_point *point)
 {
     const struct document *document = posing->document;
-    const double sample = document_sample(document, query->pin->frame);
+    const double sample = document_sample(document, query->pin->frame) + query->later;
     const int rig = query->rig, body = rig_body(document, rig), joint = query->pin->point;
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
@@ -515,7 +515,8 @@ static bool strand_find_pin(const struct posing *posing, const struct pin_query 
     memcpy(point->base, path.nodes[path.first].at, sizeof point->base);
     path_arms(&path, joint);
     for (int r = 0; query->count > 0 && r < document->rig_count; r++) {
-        if (!strand_find(posing, body, r, &strand)) continue;
+        const bool at_once = document->rigs[r]->offset == document->rigs[rig]->offset; // others are as they are
+        if (!at_once || !strand_find(posing, body, r, &strand)) continue;
         posing_values(posing, r, sample, NULL, values);
         add_bends(&path, joint, &strand, values, query, c);
         if (r != body) continue;
@@ -527,7 +528,8 @@ static bool strand_find_pin(const struct posing *posing, const struct pin_query 
         limbs_base_slope((double)limbs.stretch, tail->length / (double)FOX_TAIL_LENGTH, way);
         for (int k = 0; k < 3; k++) way[k] *= 1.8 / 3.14159265358979323846;
         for (int s = 0; s < query->count; s++) {
-            for (int k = 0; k < 3; k++) c[s][k][0] += tail->position[k].track == query->splines[s];
+            for (int k = 0; k < 3 && document->rigs[r]->offset == 0; k++) // else the base is ahead of the bends
+                c[s][k][0] += tail->position[k].track == query->splines[s];
             for (int i = 0; i < tail->channel_count; i++) {
                 const struct channel *channel = &tail->channels[i];
                 if (channel->spline == query->splines[s] && channel->axis == AXIS_STRETCH)

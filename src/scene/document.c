@@ -306,6 +306,11 @@ double document_frame(const struct document *document, int sample)
     return document->first_frame + (double)sample / document->substeps;
 }
 
+double document_delay(const struct document *document, int rig)
+{
+    return document->rigs[rig]->offset * document->substeps;
+}
+
 int document_last_knot_sample(const struct document *document, const struct spline *spline)
 {
     return document_samples(document) - (spline_start(spline) == WIGGLY_LOOP ? 2 : 1);

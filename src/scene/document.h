@@ -168,6 +168,9 @@ int document_sample(const struct document *document, double frame);
 /// The frame of a sample.
 double document_frame(const struct document *document, int sample);
 
+/// Samples by which a rig's offset delays it.
+double document_delay(const struct document *document, int rig);
+
 /// The last sample that may have a knot; in a loop the very last sample repeats the first.
 int document_last_knot_sample(const struct document *document, const struct spline *spline);
 

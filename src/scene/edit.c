@@ -164,6 +164,7 @@ bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct 
     }
     for (int r = 0; keeps_seconds && r < document->rig_count; r++) {
         struct rig *rig = document_own_rig(document, r);
+        rig->offset *= factor;
         for (int i = 0; i < rig->pin_count; i++) rig->pins[i].frame = rig->pins[i].frame * factor + 0.0;
     }
     set_timing(document, &timing);

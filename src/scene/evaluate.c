@@ -139,13 +139,23 @@ double evaluation_offset(const struct evaluation *evaluation, const struct docum
     const struct spline *of = document->splines[spline];
     for (int k = 0; k < of->knot_count; k++) settles |= of->knots[k].settles;
     if (!settles) return 0;
+
+    // y less what it follows, read between samples as y is: from up to four of them.
+    enum { AROUND = 4 };
+    const wiggly_curve *curve = &evaluation->curves[spline];
     const double *own = track_of(evaluation, document, spline, PARAMETER_EQUILIBRIUM);
-    const double at = fmin(fmax(position, 0), evaluation->samples - 1),
-                 number = of->parameter[PARAMETER_EQUILIBRIUM].value;
-    const int i = (int)at, next = i + 1 < evaluation->samples ? i + 1 : i;
-    const double *y = evaluation->curves[spline].y;
-    const double here = y[i] - (own ? own[i] : number), there = y[next] - (own ? own[next] : number);
-    return here + (at - i) * (there - here);
+    const int last = curve->samples - 1;
+    const bool is_loop = curve->start == WIGGLY_LOOP;
+    const double at = is_loop ? position - last * floor(position / last) : fmin(fmax(position, 0), last);
+    const int from = is_loop ? (int)at - 1 : (int)fmax((int)at - 1, 0);
+    const int count = is_loop || from + AROUND <= last + 1 ? AROUND : last + 1 - from;
+    double y[AROUND], none[AROUND] = {0};
+    for (int k = 0; k < count; k++) {
+        const int i = is_loop ? (from + k + last) % last : from + k;
+        y[k] = curve->y[i] - (own ? own[i] : of->parameter[PARAMETER_EQUILIBRIUM].value);
+    }
+    const wiggly_curve around = {.y = y, .re = none, .im = none, .samples = count, .mode = WIGGLY_CUBIC};
+    return wiggly_evaluate(&around, at - from).y;
 }
 
 /// What is to be solved for one spline, its knots left out; tracks point into the curves and into baked motions.
@@ -353,12 +363,12 @@ static bool pinned_begin(struct evaluation *evaluation, const struct document *d
     return true;
 }
 
-/// Finds a pin's point on the present curves and, unless `c` is NULL, the members' pulls on it.
-static bool find_point(const struct pinned *pinned, int rig, const struct pin *pin, pin_pull *c,
+/// Finds a pin's point, so many samples later, on the present curves and, unless `c` is NULL, the members' pulls on it.
+static bool find_point(const struct pinned *pinned, int rig, const struct pin *pin, double later, pin_pull *c,
                        struct pin_point *point)
 {
     const struct model_source *source = &pinned->evaluation->models;
-    const struct pin_query query = {rig, pin, pinned->members, c ? pinned->count : 0};
+    const struct pin_query query = {rig, pin, pinned->members, c ? pinned->count : 0, later};
     return source->find(source->context, pinned->evaluation, pinned->document, &query, c, point);
 }
 
@@ -458,20 +468,47 @@ static void pin_aim(const struct held_pin *held, wiggly_pin *pin, wiggly_pull *p
     }
 }
 
-/// Finds the points, and the present pulls on them; the first time without pins.
+/// The sample nearest to a position on a curve, and how far beyond it that is.
+static int nearest_sample(const wiggly_curve *curve, double position, double *beyond)
+{
+    const int last = curve->samples - 1;
+    const bool is_loop = curve->start == WIGGLY_LOOP;
+    if (is_loop) position -= last * floor(position / last);
+    position = fmin(fmax(position, 0), last);
+    *beyond = position - rint(position);
+    const int sample = (int)rint(position);
+    return is_loop && sample == last ? 0 : sample;
+}
+
+/// Finds the points, and the present pulls on them; the first time without pins. Between samples a pull on the nearest one, turned as far as x
+/// turns from there, is near the derivative, and further rounds remove the rest.
 static void find_pulls(struct pinned *pinned, bool is_first)
 {
     for (int h = 0; h < pinned->held_count; h++) {
         struct held_pin *held = &pinned->held[h];
         wiggly_pin *pin = &pinned->pins[h];
         wiggly_pull *pulls = &pinned->pulls[h * pinned->count];
-        *pin = (wiggly_pin){.sample = document_sample(pinned->document, held->pin->frame), .pulls = pulls};
-        held->is_found = find_point(pinned, held->rig, held->pin, pinned->c, &held->from);
+        const double read =
+            document_sample(pinned->document, held->pin->frame) - document_delay(pinned->document, held->rig);
+        double beyond;
+        const int spline = rig_point_spline(pinned->document->rigs[held->rig]);
+        *pin = (wiggly_pin){.sample = nearest_sample(&pinned->evaluation->curves[spline], read, &beyond),
+                            .pulls = pulls};
+        held->is_found = find_point(pinned, held->rig, held->pin, 0, pinned->c, &held->from);
         if (!held->is_found) continue;
         pin->pull_count = pinned->count;
         for (int i = 0; i < pinned->count; i++) {
+            const wiggly_curve *curve = &pinned->curves[i];
+            const bool is_there =
+                nearest_sample(curve, read, &beyond) == pin->sample; // beyond an end some splines wrap
+            const bool turns = curve->mode == WIGGLY_COMPLEX;
+            const maths_point turn = maths_turn(turns ? curve->omega[pin->sample] * curve->step * beyond : 0);
             pulls[i].spline = i;
-            memcpy(pulls[i].c, pinned->c[i], sizeof pulls[i].c);
+            for (int k = 0; k < 3; k++) {
+                const double *c = pinned->c[i][k];
+                pulls[i].c[k][0] = is_there ? c[0] * turn.cos - c[1] * turn.sin : 0;
+                pulls[i].c[k][1] = is_there ? c[0] * turn.sin + c[1] * turn.cos : 0;
+            }
         }
         for (int k = 0; k < 3; k++) {
             held->passed[k] = 0;
@@ -517,7 +554,7 @@ static wiggly_status approach(struct pinned *pinned)
             const struct held_pin *held = &pinned->held[h];
             struct pin_point now;
             if (!held->is_found) continue;
-            find_point(pinned, held->rig, held->pin, NULL, &now);
+            find_point(pinned, held->rig, held->pin, 0, NULL, &now);
             there &= held->from.is_linear || distance(held->pin->to, now.at) <= now.slack ||
                      distance(now.at, held->from.at) <= now.slack;
         }
@@ -588,7 +625,7 @@ static double put_bound(struct pinned *pinned, int b, int rig, int sample, doubl
     double(*c)[2] = floors->c + b * pinned->count;
     const struct pin pin = {.frame = document_frame(pinned->document, sample), .point = floors->low[sample].vertex};
     struct pin_point point = {.size = 1};
-    find_point(pinned, rig, &pin, pinned->c, &point);
+    find_point(pinned, rig, &pin, document_delay(pinned->document, rig), pinned->c, &point);
     *bound = (wiggly_bound){.sample = sample, .c = (const double(*)[2])c, .least = height - point.at[1]};
     for (int i = 0; i < pinned->count; i++) {
         const wiggly_curve *curve = &pinned->curves[i];
@@ -994,7 +1031,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
             const struct pin *pin = &document->rigs[r]->pins[i];
             struct pin_left *left = &pinned->left[pinned->left_count++];
             struct pin_point now;
-            *left = (struct pin_left){.is_found = find_point(pinned, r, pin, NULL, &now)};
+            *left = (struct pin_left){.is_found = find_point(pinned, r, pin, 0, NULL, &now)};
             if (!left->is_found) continue;
             left->size = now.size;
             for (int k = 0; k < 3; k++) {

@@ -48,6 +48,7 @@ struct pin_query {
     const struct pin *pin;
     const int *splines;
     int count;
+    double later; ///< samples after the pin's
 };
 
 /// What the solver needs to know about models: places of pinned points and floors, how splines move them, and how joints move in clips.

@@ -193,7 +193,8 @@ struct rig {
     atomic_int holders; ///< documents
     unsigned id;        ///< as a knot's
     enum rig_kind kind;
-    char *name; ///< NULL where the file has none
+    char *name;    ///< NULL where the file has none
+    double offset; ///< frames by which all that its splines do comes later
     union {
         struct {
             struct channel *channels;

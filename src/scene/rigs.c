@@ -293,6 +293,11 @@ _Static_assert(offsetof(struct tail, channels) == 0 && offsetof(struct chain, ch
     {                                                                                                                \
         FIELD("name", FIELD_TEXT, struct rig, name), .is_required = needs_name, .is_apart = true                     \
     }
+#define RIG_OFFSET                                                                                                   \
+    {                                                                                                                \
+        FIELD("offset", FIELD_NUMBER, struct rig, offset), .range = {-SCENE_MAX_FRAME, SCENE_MAX_FRAME, false},      \
+                                                           .is_quiet = true                                          \
+    }
 #define RIG_PINS(rows_of)                                                                                            \
     {                                                                                                                \
         FIELD_LIST_OF("pins", struct rig, pins, pin_count, rows_of, SCENE_MAX_PINS),                                 \
@@ -393,6 +398,7 @@ static const struct field tail_fields[] = {
     {.key = "of"},
     {.key = "lag"},
     {.key = "gain"},
+    RIG_OFFSET,
     RIG_PINS(joint_pins),
     FIELD_END(struct rig),
 };
@@ -424,6 +430,7 @@ static const struct field character_fields[] = {
      .flag = offsetof(struct rig, character.has_floor)},
     {FIELD("paint", FIELD_PATH, struct rig, character.paint_file), .load = paint_load, .print = paint_print},
     {FIELD("vertices", FIELD_PAINT, struct rig, character.painted)},
+    RIG_OFFSET,
     RIG_PINS(vertex_pins),
     FIELD_END(struct rig),
 };
@@ -460,6 +467,7 @@ static const struct field chain_fields[] = {
     {FIELD("turn", FIELD_NUMBER, struct rig, chain.turn), .range = FIELD_ANY},
     {FIELD("mirror", FIELD_FLAG, struct rig, chain.mirror)},
     {FIELD_LIST_OF("channels", struct rig, chain.channels, chain.channel_count, chain_channels, SCENE_MAX_CHANNELS)},
+    RIG_OFFSET,
     RIG_PINS(joint_pins),
     FIELD_END(struct rig),
 };

@@ -384,6 +384,56 @@ TEST(the_start_scene)
     opened_free(&scene);
 }
 
+/// A rig reads its splines its offset earlier, between samples as their curves do, around the seam of a loop, and where an open curve ends as at
+/// the end; settling knots' move of the equilibrium, too. Where a base or a clip moves it, it is not later.
+TEST(an_offset_delays_all_that_splines_do)
+{
+    static const char text[] =
+        "{'frames': [-4, 44], 'substeps': 2, 'splines': [{'name': 'free', 'frequency': 1, 'damping': 0.1, "
+        "'equilibrium': {'spline': 'base'}, 'knots': [{'frame': 0, 'value': 1, 'slope': 2}, {'frame': 20, 'value': "
+        "-1, "
+        "'settles': true}]}, {'name': 'loop', 'frequency': 1.4, 'start': 'loop', 'knots': [{'frame': 3, 'value': 1}, "
+        "{'frame': 30, 'value': -1}]}, {'name': 'rest', 'mode': 'real', 'frequency': 1, 'start': 'rest', 'knots': "
+        "[{'frame': 9, 'value': 1}]}, {'name': 'base', 'mode': 'cubic', 'start': 'loop', 'knots': [{'frame': 0, "
+        "'value': "
+        "0}, {'frame': 20, 'value': 1}]}], 'rigs': [{'type': 'tail', 'name': 't', 'joints': 3, 'position': "
+        "[{'spline': "
+        "'base'}, 0, 0], 'channels': [{'spline': 'free'}, {'spline': 'free', 'of': 'displacement'}, {'spline': "
+        "'loop', "
+        "'axis': 'up'}, {'spline': 'rest', 'axis': 'blink'}]}]}";
+    static const double offsets[] = {0, 3, 2.37, -3.6, 100.25, -100.25};
+    struct world world;
+    struct evaluation evaluation = {0};
+    world_open_scene(&world, json(text));
+    evaluation_update(&evaluation, world.document, false);
+    const struct posing posing = {.document = world.document, .evaluation = &evaluation};
+    const wiggly_curve *curves = evaluation.curves;
+    for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++) {
+        world.document->rigs[0]->offset = offsets[i];
+        for (double at = 0; at <= 96; at += 0.75) {
+            wiggly_value values[RIG_MAX_INPUTS];
+            struct rig_pose posed;
+            posing_values(&posing, 0, at, NULL, values);
+            for (int c = 0; c < 4; c++) {
+                const wiggly_value is = wiggly_evaluate(&curves[c - (c > 0)], at - 2 * offsets[i]);
+                const double read = at - 2 * offsets[i], follows = c == 1 ? wiggly_evaluate(&curves[3], read).re : 0;
+                if (c != 1 || (read >= 2 && read <= 94)) assert_near(values[c].y, is.y - follows, 1e-12);
+                assert_near(values[c].re, is.re, 1e-12);
+                assert_near(values[c].im, is.im, 1e-12);
+            }
+            assert_true(rig_pose(&posing, 0, at, NULL, &posed));
+            const wiggly_value base = wiggly_evaluate(&curves[3], at);
+            assert_near(posed.strand.matrix[0][12], base.y + base.re, 1e-6);
+        }
+        wiggly_value ends[2][RIG_MAX_INPUTS];
+        for (int end = 0; end < 2; end++) posing_values(&posing, 0, 96 * end, NULL, ends[end]);
+        assert_near(ends[0][2].re, ends[1][2].re, 1e-12);
+        assert_near(ends[0][2].im, ends[1][2].im, 1e-12);
+    }
+    evaluation_free(&evaluation);
+    world_close(&world);
+}
+
 /// The head turns the way that the tip swings, and later than the tail's root.
 TEST(the_head_looks_where_the_tail_goes)
 {

@@ -190,6 +190,55 @@ STAND_TEST(a_tail_meets_its_pins, *stand = open_path("assets/scenes/tail.json"))
     assert_same_as_whole(stand);
 }
 
+/// A rig with an offset is held at its pins' frames: between samples, around the seam of loops, and where a twin of its splines has another. By whole
+/// frames, a place out of reach is missed as far as without one.
+STAND_TEST(rigs_with_an_offset_meet_their_pins, *stand = open_text(zoo))
+{
+    static const struct {
+        const char *path, *edits;
+        int rig, point;
+        double frame, tolerance;
+    } rows[] = {
+        {NULL, "offset creature 3", CREATURE, VERTEX, 30, 1e-9},
+        {NULL, "offset creature 2.37", CREATURE, VERTEX, 30, 1e-8},
+        {NULL, "offset creature 2.5; offset shared -3.6", CREATURE, VERTEX, 30, 1e-8},
+        {"assets/scenes/tail.json", "offset 0 2", 0, TIP, FREE_FRAME + 2, 1e-6},
+        {"assets/scenes/tail.json", "offset 0 2.37", 0, TIP, FREE_FRAME + 2, 1e-6},
+        {"assets/scenes/tail.json", "offset 0 -46.3", 0, TIP, FREE_FRAME - 46, 1e-6},
+        {"assets/scenes/tail.json", "offset 0 80.3", 0, TIP, 34, 1e-6}, // before the seam, after it
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct stand later = rows[i].path ? open_path(rows[i].path) : open_text(zoo);
+        edit(&later, rows[i].edits);
+        stand_solve(&later);
+        pin_near(&later, rows[i].rig, rows[i].point, rows[i].frame, 0.2, 0.1);
+        stand_solve(&later);
+        assert_met(&later, rows[i].rig, rows[i].tolerance);
+        assert_same_as_whole(&later);
+        stand_close(&later);
+    }
+    double left[2];
+    for (int i = 0; i < 2; i++) {
+        struct stand far = open_path("assets/scenes/tail.json");
+        edit(&far, i ? "offset 0 3" : "offset 0 0");
+        stand_solve(&far);
+        pin_near(&far, 0, TIP, i ? 0 : 117, 0.2, 0.1);
+        stand_solve(&far);
+        left[i] = left_of(&far, 0, 0);
+        stand_close(&far);
+    }
+    assert_true(left[0] > 0.01);
+    assert_near(left[1], left[0], 1e-9);
+    edit(stand, "offset creature 2.25; offset shared -1.5");
+    stand_solve(stand);
+    pin_near(stand, CREATURE, VERTEX, 30, 0.4, -0.3);
+    pin_near(stand, SHARED, 9, 44, 0.1, 0);
+    stand_solve(stand);
+    assert_met(stand, CREATURE, 1e-6);
+    assert_true(left_of(stand, SHARED, 0) < 0.05);
+    assert_same_as_whole(stand);
+}
+
 STAND_TEST(a_chain_on_a_clip_is_pinned, *stand = open_path("assets/scenes/dog.json"))
 {
     const double far = pin_near(stand, 1, 7, 30, 0.3, 0.1);
@@ -459,10 +508,11 @@ static double lowest(const struct stand *stand, int sample)
 TEST(nothing_is_below_the_floor)
 {
     static const char *const starts[] = {"free", "loop", "rest"};
+    static const char *const floors[] = {", 'floor': 0", ", 'floor': 0, 'offset': 3", ", 'floor': 0, 'offset': -2"};
     for (int s = 0; s < 3; s++) {
         double before = INFINITY;
         struct stand loose = open_floor(starts[s], JUMP ", {'frame': 40, 'value': 2}", "", ""),
-                     kept = open_floor(starts[s], JUMP ", {'frame': 40, 'value': 2}", "", ", 'floor': 0");
+                     kept = open_floor(starts[s], JUMP ", {'frame': 40, 'value': 2}", "", floors[s]);
         for (int i = 0; i < kept.opened.evaluation.samples; i++) {
             before = fmin(before, lowest(&loose, i));
             assert_true(lowest(&kept, i) > -3e-5);

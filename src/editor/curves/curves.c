@@ -161,8 +161,8 @@ void curves_frame_all(struct curves *curves, struct core *core)
     show_values(view, &part);
 
     // The active spline's equilibrium, phase curve and copies.
-    double turn[CURVES_FAN][2];
-    const int copies = core->focus.active >= 0 ? curves_fan(core, turn) : 0;
+    double turn[CURVES_FAN][2], delay;
+    const int copies = core->focus.active >= 0 ? curves_fan(core, turn, &delay) : 0;
     const double last = document_samples(document) - 1;
     part = *view;
     for (int column = 0; column <= COLUMNS && core->focus.active >= 0; column++) {

@@ -70,13 +70,14 @@ int curves_other(const struct curves *curves, const struct document *document, i
     return same ? spline : -1;
 }
 
-int curves_fan(const struct core *core, double turn[CURVES_FAN][2])
+int curves_fan(const struct core *core, double turn[CURVES_FAN][2], double *delay)
 {
     int rig, number;
     const struct channel *channel = core_active_channel(core, &rig, &number);
     if (core->view.look != LOOK_WIGGLY || !channel || channel->spline != core->focus.active ||
         !axis_bends(channel->axis))
         return 0;
+    *delay = document_delay(core->document, rig);
     for (int i = 0; i < CURVES_FAN; i++) {
         const int joints = bones_joints(core, rig), joint = (joints - 1) * (i + 1) / CURVES_FAN;
         const double lag = angles_lag(&channel->lag, joint, joints) * (M_PI / 180);
@@ -93,8 +94,8 @@ static void draw_active(struct curves *curves, const struct core *core)
     struct curve_cache *cache = &curves->cache;
     const struct evaluation *evaluation = core->evaluation;
     const struct spline *spline = core_active_spline(core);
-    double turn[CURVES_FAN][2];
-    cache->fan_count = spline ? curves_fan(core, turn) : 0;
+    double turn[CURVES_FAN][2], delay = 0;
+    cache->fan_count = spline ? curves_fan(core, turn, &delay) : 0;
     if (cache->fan_count > 0) {
         const double end = fmin(cache->first + cache->by * cache->count, INT_MAX);
         const int knots = spline_lower_bound(core->document, spline, (int)end) -
@@ -107,6 +108,8 @@ static void draw_active(struct curves *curves, const struct core *core)
         memcpy(cache->re[c], (float[2]){x, curves_y(core, v.y + v.re)}, sizeof cache->re[c]);
         memcpy(cache->im[c], (float[2]){x, curves_y(core, v.y + v.im)}, sizeof cache->im[c]);
         memcpy(cache->equilibrium[c], (float[2]){x, curves_y(core, v.y)}, sizeof cache->equilibrium[c]);
+        if (cache->fan_count > 0 && delay != 0)
+            v = evaluation_at(evaluation, core->focus.active, cache->position[c] - delay);
         for (int i = 0; i < cache->fan_count; i++) { /* eq. 27: Re(e^{−jφ} x) */
             cache->fan[i][c][0] = x;
             cache->fan[i][c][1] = curves_y(core, v.y + turn[i][0] * v.re + turn[i][1] * v.im);

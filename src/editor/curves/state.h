@@ -164,8 +164,9 @@ double curves_pixels_per_value(const struct core *core);
 double curves_frame(const struct core *core, double x);
 double curves_value(const struct core *core, double y);
 
-/// The cosine and sine of the lags of the active spline's copies, spread evenly along the tail or chain that it bends; returns how many.
-int curves_fan(const struct core *core, double turn[CURVES_FAN][2]);
+/// The cosine and sine of the lags of the active spline's copies, spread evenly along the tail or chain that it bends, and the samples by which
+/// its offset delays them; returns how many.
+int curves_fan(const struct core *core, double turn[CURVES_FAN][2], double *delay);
 
 /// How a spline's values are drawn.
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);

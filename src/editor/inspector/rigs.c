@@ -238,7 +238,7 @@ static const struct {
     {AXIS_BLINK, {"blink", "eyelids", 0}},
 };
 
-enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
+enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN, ROW_OFFSET };
 
 static const struct number_row tail_rows[] = {
     [ROW_X] = {NUMBER_AT(struct rig, tail.position[0].value), .undo = "Move body",
@@ -262,6 +262,10 @@ static const struct number_row tail_rows[] = {
                   .ui = {NAMED("chain.turn", "turn"), .unit = "°",
                          .hint = "Turns the axes of side and up about the chain's own direction", BAR(-180, 180),
                          TYPED(-36000, 36000), .step = 1}},
+    [ROW_OFFSET] = {NUMBER_AT(struct rig, offset), .undo = "Set offset",
+                    .ui = {NAMED("offset", "offset"), .unit = "f",
+                           .hint = "Frames by which its splines move it later, so that twins are not in step",
+                           BAR(-12, 12), TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .step = 0.5, .decimals = 2}},
 };
 
 /// Lets the body follow a spline, or stop.
@@ -510,6 +514,7 @@ void inspector_tail(struct inspector *in)
         if (inspector_toggle(in, ui_row(ui, UI_ROW), &mirror, &changed.chain.mirror))
             edit_rig_set(in->core->document, in->rig, &changed, &in->core->step.error);
     }
+    inspector_numbers(in, &tail_rows[ROW_OFFSET], 1, &home);
     if (!is_tail && bones_mirrorable(in->core, in->rig) == in->rig) {
         const struct rect row = ui_row(ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
         static const struct row twin = {
@@ -766,6 +771,8 @@ void inspector_character(struct inspector *in)
         }
     }
 
+    inspector_numbers(in, &tail_rows[ROW_OFFSET], 1, &(struct number_home){.rig = &owner});
+    rig = characters_selected(in->core); // as edited
     int floor = rig->has_floor;
     const struct row ground = {NAMED("floor", "floor"), .hint = "Keep the whole character above a height",
                                .undo = floor ? "Remove floor" : "Set floor", CHOICES(switches)};
@@ -780,7 +787,8 @@ void inspector_character(struct inspector *in)
         char text[120];
         if (left && left->depth >= 1e-4) {
             snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
-                     left->depth, document_frame(in->core->document, left->sample));
+                     left->depth,
+                     document_frame(in->core->document, left->sample) + in->core->document->rigs[owner]->offset);
             ui_paragraph(&in->ui, text, theme()->text_dim);
         }
     }

@@ -322,13 +322,13 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
     return true;
 }
 
-/// Outlines a rig at a sample, a chain by its line; `tip` receives a place for text. False if not visible.
+/// Outlines a rig as a sample of its splines moves it, a chain by its line; `tip` receives a place for text. False if not visible.
 static bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample,
                        float width, uint32_t color, float tip[2])
 {
     struct rig_pose pose;
     float points[ANGLES_MAX_JOINTS + 1][2];
-    if (!rig_pose(posing, rig, sample, NULL, &pose)) return false;
+    if (!rig_pose(posing, rig, sample + document_delay(posing->document, rig), NULL, &pose)) return false;
     if (pose.kind == RIG_TAIL) return show_tail(stage, core, &pose.strand, width, color, tip);
     if (pose.kind == RIG_CHARACTER)
         return show_character(stage, core, &pose, document_rig_number(posing->document, rig), width, color, tip);
@@ -391,7 +391,7 @@ static void ghost_show(struct stage *stage, struct core *core)
     if (rig < 0) return;
     const struct knot *knot = &spline->knots[at];
     const int sample = document_sample(document, knot->frame);
-    if (fabs(sample - core->view.playback.position) < 0.5) return;
+    if (fabs(sample + document_delay(document, rig) - core->view.playback.position) < 0.5) return;
     const struct posing posing = stage_posing(core);
     const double left = !drag->owner ? fmin(core->step.nudged_seconds / FADE, 1) : 1;
     const uint32_t color = theme_fade(spline_list_color(document, core->focus.active), GHOST * (float)left);

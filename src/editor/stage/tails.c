@@ -418,16 +418,20 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
     }
     drag_inertia_stop(stage, core->document, grab->rig);
 
-    // The sample on a whole frame nearest to the playhead where all controlled splines may have knots.
+    // The sample on a whole frame nearest to what is seen at the playhead where all controlled splines may have knots.
     const struct document *document = core->document;
-    grab->sample = document_sample(document, round(core_frame(core)));
+    const double seen = document_sample(document, round(core_frame(core) - rig->offset));
+    double last = document_samples(document) - 1;
+    bool loops = true;
     for (int a = 0; a < 2; a++) {
         const struct tail_drag_axis *axis = &grab->axis[a];
         if (!axis->active) continue;
-        const int last = document_last_knot_sample(document, document->splines[axis->spline]);
-        if (grab->sample > last) grab->sample = last;
+        const struct spline *spline = document->splines[axis->spline];
+        loops &= spline_start(spline) == WIGGLY_LOOP;
+        last = fmin(last, document_last_knot_sample(document, spline));
     }
-    if (grab->sample < 0) grab->sample = 0;
+    const double rounds = loops ? (last + 1) * floor(seen / (last + 1)) : 0;
+    grab->sample = (int)fmin(fmax(seen - rounds, 0), last);
     for (int a = 0; a < 2; a++) {
         struct tail_drag_axis *axis = &grab->axis[a];
         const wiggly_value now = evaluation_at(core->evaluation, axis->spline, grab->sample);
@@ -435,8 +439,7 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
         axis->swings = axis->active && core->view.look != LOOK_CUBIC &&
                        spline_mode(core->document->splines[axis->spline]) == WIGGLY_COMPLEX;
     }
-    core->view.playback.playing = false;
-    core->view.playback.position = grab->sample;
+    playback_seek(core, document_frame(document, grab->sample + (int)rounds) + rig->offset);
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
     if (!strand_pose(stage, core, grab->rig, core->view.playback.position, NULL, &posed)) return;
