@@ -201,6 +201,7 @@ WALK(test_the_inspector_chooses_the_clip, open_beast(s, "0", ""),
 WALK(test_a_chain_is_edited_in_the_inspector, open_beast(s, "0", TAIL),
      "carry chain.turn 40 0 6; is rigs.1.turn > 0; is rigs.1.from tail_1; once; key Ctrl+Z;"
      "click axis.twist; is rigs.1.channels.0.axis twist; click chain.mirror; is rigs.1.mirror true;"
+     "keep; enter offset 2.5; is rigs.1.offset 2.5; label Set offset; once; enter offset 0; kept;"
      "enter chain.turn 30; is rigs.1.turn 30; enter gain 11; is rigs.1.channels.0.gain 11;"
      "click tail.name; key Ctrl+A; type brush; key Enter; is rigs.1.name brush;"
      "click rig.delete; key K; is rigs.# 1; is splines.# 2; key 6*Ctrl+Z; kept")
@@ -248,10 +249,11 @@ BEAST_TEST(test_a_ramps_plot_is_as_high_as_its_points, TAIL)
 /// Turned the other way round, as in a mirror. What has one already gets none, nor has a tail one.
 BEAST_TEST(test_a_chain_gets_a_twin_on_the_other_side, LEFT_EAR)
 {
-    hands(s, "enter chain.turn 30; keep");
+    hands(s, "enter chain.turn 30; enter offset 1.5; keep");
     assert_null(missing(s->editor, NEEDS_TWIN));
     hands(s, "click chain.twin; is rigs.# 3; is rigs.2.name ear_R; is rigs.2.from ear_R_1; is rigs.2.to ear_R_2;"
-             "is rigs.2.mirror true; is rigs.2.turn -30; is rigs.2.channels.0.spline flick; lacks chain.twin");
+             "is rigs.2.mirror true; is rigs.2.turn -30; is rigs.2.offset 1.5; is rigs.2.channels.0.spline flick; "
+             "lacks chain.twin");
     assert_non_null(missing(s->editor, NEEDS_TWIN));
     hands(s, "once");
     session_close(s);

@@ -355,3 +355,14 @@ SESSION_TEST(test_rows_of_a_phone, panel_open(s, scene, 390, 844))
         assert_near(s->y - above, wide ? 24 : 32, 0);
     }
 }
+
+static const char later[] =
+    "{'frames': [0, 100], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'start': 'loop', 'knots': "
+    "[<10 "
+    "0>, <60 1>]}], 'rigs': [{'type': 'tail', 'name': 'tail', 'channels': [{'spline': 'sway', 'gain': 9}], 'offset': "
+    "3}]}";
+
+/// A tail that its splines move later is held, where it is dragged, by a knot that much earlier; around the seam of a loop, too.
+WALK(test_a_drag_of_a_tail_with_an_offset, session_open(s, later),
+     "seek 35; carry tail(tail,0.9) 20 0; sway.knots 3; sway.1.frame 32; is playhead 35; once; key Ctrl+Z;"
+     "seek 1; carry tail(tail,0.9) 20 0; sway.knots 3; sway.2.frame 98; is playhead 1; once")

@@ -466,6 +466,10 @@ NINE_TEST(test_onion_shows_the_nearest_knots)
     skins = SKINS(s);
     assert_int_equal(skins.count, 8);
     assert_true(skins.command[7]->hash != before);
+    const uint64_t at_once = skins.command[0]->hash;
+    document_own_rig(s->document, 0)->offset = 5; // the poses are those of the knots
+    hands(s, "key O O");
+    assert_true(SKINS(s).command[0]->hash == at_once);
     hands(s, "key Delete Ctrl+A Delete");
     assert_int_equal(SKINS(s).count, 0);
     hands(s, "key O; is onion 0");

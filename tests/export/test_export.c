@@ -479,3 +479,62 @@ EXPORT_TEST(a_character_keeps_the_size_and_place_of_its_file)
         close_scene(&scene);
     }
 }
+
+/// Every format has a rig with an offset as its spline was then, between two frames.
+EXPORT_TEST(an_offset_is_in_every_file)
+{
+    static const char text[] =
+        "{'frames': [0, 24], 'splines': [{'name': 's', 'frequency': 1.3, 'start': 'loop', 'knots': [{'frame': 2, "
+        "'value': 1}, {'frame': 14, 'value': -1}]}], 'rigs': [{'type': 'tail', 'name': 't', 'joints': 2, 'channels': "
+        "[{'spline': 's', 'gain': 20, 'lag': 0}], 'offset': 1.25}, {'type': 'character', 'name': 'c', 'model': "
+        "'%s/assets/models/creature.glb', 'coordinates': [{'name': 'up', 'spline': 's', 'amplitude': 2}], 'offset': "
+        "-3.4}]}";
+    char here[512], filled[1024], line[256];
+    assert_non_null(getcwd(here, sizeof here));
+    snprintf(filled, sizeof filled, json(text), here); // NOLINT: a format of this file
+    struct opened scene = open_scene(folder_file("later.json", filled));
+    const wiggly_curve *curve = &scene.evaluation.curves[0];
+    const double degree = 3.14159265358979323846 / 180;
+    for (int f = 0; f <= 24; f += 6) {
+        const wiggly_value then = wiggly_evaluate(curve, f - 1.25), soft = wiggly_evaluate(curve, f + 3.4);
+        const double angle = 20 * (then.y + then.re);
+        double number[6], quat[4];
+        mat4 world[MOST_JOINTS];
+        struct gltf gltf;
+        struct gltf_pose pose;
+        size_t size;
+
+        FILE *file = fopen(export_opened(&scene, "it.csv", (struct export_options){0}), "r");
+        for (int row = -1; file && row <= f; row++) assert_non_null(fgets(line, sizeof line, file));
+        assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf", &number[0], &number[1], &number[2], &number[3],
+                                &number[4], &number[5]),
+                         6);
+        assert_int_equal(fclose(file), 0);
+        assert_near(number[2], angle, 1e-9);
+        assert_near(number[4], 2 * (soft.y + soft.re), 1e-6);
+        assert_near(number[5], 2 * soft.im, 1e-6);
+
+        struct bvh bvh = read_bvh(export_opened(&scene, "it.bvh", (struct export_options){.rig = "t"}));
+        for (int row = 0; row <= f; row++) next_frame(&bvh, world);
+        assert_near(atan2((double)world[0][2][0], (double)world[0][2][2]), angle * degree, 1e-6);
+        free(bvh.data);
+
+        assert_done(gltf_read(export_opened(&scene, "it.glb", (struct export_options){0}), &gltf, &error));
+        assert_true(gltf_pose_create(&gltf, &pose));
+        gltf_pose_clip(&gltf, 0, f / 24.0, &pose);
+        const float *turn = pose.place[gltf_find_node(&gltf, "t_0")].rotation;
+        assert_near(2 * atan2((double)turn[1], (double)turn[3]), angle * degree, 1e-6);
+        gltf_pose_free(&pose);
+        gltf_free(&gltf);
+
+        char *usda = bytes_of(export_opened(&scene, "it.usda", (struct export_options){.rig = "t"}), &size), key[16];
+        const char *at = strstr(usda, "rotations.timeSamples");
+        snprintf(key, sizeof key, " %d: [(", f);
+        at = at ? strstr(at, key) : NULL;
+        assert_non_null(at);
+        assert_int_equal(sscanf(at + strlen(key), "%lf, %lf, %lf, %lf", &quat[0], &quat[1], &quat[2], &quat[3]), 4);
+        assert_near(2 * atan2(quat[2], quat[0]), angle * degree, 1e-6);
+        free(usda);
+    }
+    close_scene(&scene);
+}
