@@ -3,6 +3,7 @@ import json
 import subprocess
 import tempfile
 from common import *
+from wiggly_blender import exchange
 
 folder = tempfile.mkdtemp()
 WIGGLY = os.path.abspath(os.environ.get('WIGGLY', 'build/wiggly'))
@@ -226,6 +227,21 @@ def failed_imports_change_nothing():
     ok('an import is one undo step', everything()[:7] == before[:7], everything(), before)
 
 
+def offsets_are_left_out():
+    assets = os.path.abspath(os.path.join(here, '..', '..', 'assets'))
+    with open(os.path.join(assets, 'scenes', 'dog.json')) as file:
+        data = json.loads(file.read().replace('../models', f'{assets}/models'))
+    chain = next(each for each in data['rigs'] if each['type'] == 'chain')
+    path = os.path.join(folder, 'later.json')
+    for offset, left in ((0, []), (2.5, [f'the offset of {chain["name"]}'])):
+        chain['offset'] = offset
+        with open(path, 'w') as file:
+            json.dump(data, file)
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        found = exchange.read(bpy.context, path)
+        ok(f'of an offset of {offset} an import says what it left out', found == left, found)
+
+
 def strange_files():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     start = {'wiggly': 1, 'frames': [0, 9], 'splines': [], 'rigs': []}
@@ -244,4 +260,4 @@ def strange_files():
             ok(f'{what} is refused', words in str(problem), problem)
 
 
-main(round_trip, dog, nothing_is_overwritten, failed_imports_change_nothing, strange_files)
+main(round_trip, dog, nothing_is_overwritten, failed_imports_change_nothing, offsets_are_left_out, strange_files)

@@ -337,6 +337,8 @@ def build(context, data, folder):
                 if not settings.of(owner) or channel['spline'] not in owner.wiggly.splines:
                     spline_in(owner, splines[channel['spline']], fps)
             chain_in(owner, rig)
+            if rig.get('offset'):
+                left.append(f'the offset of {rig["name"]}')  # no driver reads another frame
         elif rig['type'] != 'model':
             left.append(rig.get('name', rig['type']))
     for owner in owners.values():

@@ -422,6 +422,7 @@ SESSION_TEST(test_a_character_is_edited_live, open_puppet(s, "", "{'name': 'a', 
     hands(s, "release; once; enter drive.lag 90; is rigs.0.coordinates.0.lag 90;"
              "key Ctrl+Z; is rigs.0.coordinates.0.lag 0; key Ctrl+Z; kept; label;"
              "click drive.add.0; click item.b; is rigs.0.coordinates.# 2; is rigs.0.coordinates.1.name b;"
+             "enter offset 2.5; is rigs.0.offset 2.5; label Set offset; key Ctrl+Z; is rigs.0.offset nothing;"
              "click drive.1; click drive.splines.0; click item.t; is rigs.0.coordinates.1.spline t;"
              "is rigs.0.coordinates.0.spline s");
     assert_int_equal(on_stage(s, 0)->morph.count, 2);
