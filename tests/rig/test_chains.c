@@ -636,3 +636,30 @@ DOG_TEST(the_tip_moves_as_far_as_its_spline)
     assert_true(most > 0.05);
     assert_near(evaluation->curves[0].total[evaluation->samples - 1], evaluation->curves[0].total[0], 1e-9);
 }
+
+/// What a chain with an offset adds to its clip is what it added then, also around the seam; the clip goes on as ever, and the twin.
+STAND_TEST(an_offset_delays_what_bends_not_the_clip, stand_open(stand, "assets/scenes/dog.json"))
+{
+    static const char *const joints[] = {"ear_1_R", "ear_4_R", "ear_1_L", "tail_8"};
+    const double offset = 2.37;
+    versors bends[2][4];
+    stand_solve(stand);
+    const struct posing posing = opened_posing(&stand->opened);
+    for (double at = 0; at <= 96; at += 7.5) {
+        for (int later = 0; later < 2; later++) {
+            document_own_rig(stand->opened.document, 3)->offset = later ? offset : 0;
+            for (int j = 0; j < 4; j++) {
+                const double read = !later && j < 2 ? at - offset : at, seen = 4 * (read < 0 ? read + 96 : read);
+                struct rig_pose posed;
+                assert_true(rig_pose_body(&posing, 0, seen, NULL, &posed));
+                const int node = gltf_find_node(&posed.model.imported->gltf, joints[j]);
+                versors bent, clip;
+                memcpy(bent.raw, posed.model.pose->place[node].rotation, sizeof bent.raw);
+                memcpy(clip.raw, posing_clip(&posing, 0, seen, POSE_UNSEEN)->place[node].rotation, sizeof clip.raw);
+                bends[later][j] = glms_quat_mul(glms_quat_inv(clip), bent);
+            }
+        }
+        for (int j = 0; j < 4; j++)
+            for (int k = 0; k < 4; k++) assert_near(bends[1][j].raw[k], (double)bends[0][j].raw[k], 1e-6);
+    }
+}
