@@ -242,12 +242,6 @@ static void show_title(struct app *app)
 
 enum { DESCRIPTION = 1024, NAMED = 12 }; ///< bytes; names of a kind
 
-static void append(char text[DESCRIPTION], const char *between, const char *more)
-{
-    const size_t used = strlen(text);
-    snprintf(text + used, DESCRIPTION - used, "%s%s", between, more);
-}
-
 static const char *end_of_names(int count) { return count == 0 ? "nothing" : count > NAMED ? " and more" : ""; }
 
 void app_show_title(struct app *app)
@@ -259,10 +253,13 @@ void app_show_title(struct app *app)
     const struct document *document = app->work.document;
     const int rigs = document->rig_count, splines = document->spline_count;
     char text[DESCRIPTION] = "On the stage: ";
-    for (int r = 0; r < rigs && r < NAMED; r++) append(text, r ? ", " : "", rig_title(document->rigs[r]));
-    append(text, end_of_names(rigs), ". Splines: ");
-    for (int s = 0; s < splines && s < NAMED; s++) append(text, s ? ", " : "", document->splines[s]->name);
-    append(text, end_of_names(splines), editor_shown(app->work.editor).plays ? ". It plays." : ". It is paused.");
+    for (int r = 0; r < rigs && r < NAMED; r++)
+        print_more(text, DESCRIPTION, "%s%s", r ? ", " : "", rig_title(document->rigs[r]));
+    print_more(text, DESCRIPTION, "%s%s", end_of_names(rigs), ". Splines: ");
+    for (int s = 0; s < splines && s < NAMED; s++)
+        print_more(text, DESCRIPTION, "%s%s", s ? ", " : "", document->splines[s]->name);
+    print_more(text, DESCRIPTION, "%s%s", end_of_names(splines),
+               editor_shown(app->work.editor).plays ? ". It plays." : ". It is paused.");
     const uint64_t hash = hash_bytes(HASH_START, text, strlen(text));
     if (hash != app->described) platform_describe(app->platform, text);
     app->described = hash;

@@ -44,6 +44,9 @@ void printable(const char *text, char *shown, size_t size);
 /// Writes a line, and its end, that may repeat a path, a name or an argument.
 void print_line(FILE *stream, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/// Adds to a text in an array of `size` bytes as much as there is room for.
+#define print_more(text, size, ...) snprintf((text) + strlen(text), (size)-strlen(text), __VA_ARGS__)
+
 /// Writes a field of a table by RFC 4180: a name and a suffix, quoted if it has a comma, a quote or a line break. A file or pipe gets the name
 /// unchanged, a terminal gets printable().
 void print_field(FILE *stream, const char *name, const char *suffix);

@@ -110,7 +110,7 @@ static int store_value(const struct usage *usage, const struct option_spec *opti
     case OPTION_WORD: {
         int number = 0;
         for (const char *word = argument; *word;) {
-            const size_t span = strcspn(word, "|"), used = strlen(expected);
+            const size_t span = strcspn(word, "|");
             number++;
             if (span == strlen(text) && strncmp(word, text, span) == 0) {
                 *(int *)option->target = number;
@@ -118,7 +118,7 @@ static int store_value(const struct usage *usage, const struct option_spec *opti
             }
             const char *next = word + span + (word[span] == '|');
             const char *joint = !*next ? "" : strchr(next, '|') ? ", " : " or ";
-            snprintf(expected + used, sizeof expected - used, "%.*s%s", (int)span, word, joint);
+            print_more(expected, sizeof expected, "%.*s%s", (int)span, word, joint);
             word = next;
         }
     }

@@ -4,7 +4,6 @@
 #include "scene/text.h"
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,19 +86,6 @@ void export_endings(unsigned holds, char text[EXPORT_ENDINGS])
     }
 }
 
-static void note(struct export_report *report, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-/// Adds a sentence to what the user should know.
-static void note(struct export_report *report, const char *format, ...)
-{
-    const size_t used = strlen(report->note);
-    va_list arguments;
-    va_start(arguments, format);
-    snprintf(report->note + used, sizeof report->note - used, "%s", used > 0 ? "; " : "");
-    vsnprintf(report->note + strlen(report->note), sizeof report->note - strlen(report->note), format, arguments);
-    va_end(arguments);
-}
-
 static bool choose_rigs(struct export_range *range, struct error *error)
 {
     const struct document *document = range->posing->document;
@@ -160,7 +146,8 @@ bool range_choose_keys(struct export_range *range, struct export_report *report,
     range->total += (long)range->key_count * range->rig_count;
     const double end = range_frame(range, range->key_count - 1);
     if (fabs(end - last) > 1e-6)
-        note(report, "the last key is on frame %g, because no key falls on frame %g", end, last);
+        snprintf(report->note, sizeof report->note, "the last key is on frame %g, because no key falls on frame %g",
+                 end, last);
     return true;
 }
 

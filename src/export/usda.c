@@ -922,11 +922,11 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error)
     }
     fputs("}\n", out);
     names_free(&names);
-    const int used = snprintf(range->summary, FORMAT_SUMMARY, "%d rig%s, %d keys", range->rig_count,
-                              range->rig_count == 1 ? "" : "s", range->key_count);
+    snprintf(range->summary, FORMAT_SUMMARY, "%d rig%s, %d keys", range->rig_count, range->rig_count == 1 ? "" : "s",
+             range->key_count);
     if (range->sidecars.count == 0) return done;
     const char *folder = path_name(range->sidecars.folder);
-    snprintf(range->summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.*s", range->sidecars.count,
-             range->sidecars.count == 1 ? "" : "s", name_fit(folder, 40), folder);
+    print_more(range->summary, FORMAT_SUMMARY, ", %d texture%s in %.*s", range->sidecars.count,
+               range->sidecars.count == 1 ? "" : "s", name_fit(folder, 40), folder);
     return done;
 }

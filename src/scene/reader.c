@@ -1,7 +1,7 @@
 /// Reads single values of a scene's text, and reports errors in them by file, line and path.
-#include "scene/fields.h"
 #include "base/json.h"
 #include "base/need.h"
+#include "scene/fields.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -147,14 +147,7 @@ static struct cursor locate(struct source *source, const struct where *where, in
 
 static void append_key(char path[PATH_TEXT_SIZE], const char *dot, const char *key, size_t length)
 {
-    size_t used = strlen(path);
-    snprintf(path + used, PATH_TEXT_SIZE - used, "%s%.*s", used ? dot : "", (int)length, key);
-}
-
-static void append_index(char path[PATH_TEXT_SIZE], size_t index)
-{
-    size_t used = strlen(path);
-    snprintf(path + used, PATH_TEXT_SIZE - used, "[%zu]", index);
+    print_more(path, PATH_TEXT_SIZE, "%s%.*s", *path ? dot : "", (int)length, key);
 }
 
 /// "splines[0].knots[2].frame"
@@ -165,7 +158,7 @@ static void append_where(const struct where *where, char path[PATH_TEXT_SIZE])
     if (where->key) {
         append_key(path, ".", where->key, strlen(where->key));
     } else {
-        append_index(path, where->index);
+        print_more(path, PATH_TEXT_SIZE, "[%zu]", where->index);
     }
 }
 
@@ -205,7 +198,7 @@ static void source_path_at(const struct source *source, size_t offset, char path
     path[0] = '\0';
     for (int i = 0; i < depth; i++) {
         if (!levels[i].is_object) {
-            append_index(path, levels[i].index);
+            print_more(path, PATH_TEXT_SIZE, "[%zu]", levels[i].index);
         } else if (levels[i].key) {
             append_key(path, ".", levels[i].key, levels[i].key_length);
         }

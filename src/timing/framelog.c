@@ -338,9 +338,8 @@ bool timing_log_read(const char *path, struct timing_log *log, struct error *err
             skipped = atoi(text + sizeof warm_up - 1);
         } else if (strncmp(text, solver, sizeof solver - 1) == 0) {
             const char *name = text + sizeof solver - 1;
-            const size_t used = strlen(log->solvers), room = sizeof log->solvers - used; // those that the log names
             if (strcmp(name, "NA") != 0 && !strstr(log->solvers, name))
-                snprintf(log->solvers + used, room, "%s%s", used ? ", " : "", name);
+                print_more(log->solvers, sizeof log->solvers, "%s%s", *log->solvers ? ", " : "", name);
         } else if (*text == '#' || (named && seen++ < skipped)) {
             continue;
         } else if (!named) { // columns are found by name, so that logs older than a column can be read
