@@ -95,10 +95,11 @@ struct gltf_reader {
 };
 
 /// The part of the JSON that is being read.
-void gltf_at(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+#define gltf_at(r, ...) snprintf((r)->place, sizeof(r)->place, __VA_ARGS__)
 
 /// Fails with "file: place" and then the text, which begins with ".member: " or ": ".
-bool gltf_bad(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
+#define gltf_bad(r, format, ...)                                                                                     \
+    fail((r)->error, ERROR_INPUT, "%s: %s" format, (r)->file.path, (r)->place, ##__VA_ARGS__)
 
 /// Zeroed memory that is freed with the character, if the file is large enough to justify so much; else NULL and an error.
 void *gltf_make(struct gltf_reader *r, size_t count, size_t size);

@@ -14,24 +14,6 @@
 
 enum { PIXEL_ROOM = 256 << 20, VERTEX_LIMIT = 1 << 24, NAME_ROOM = 512 };
 
-void gltf_at(struct gltf_reader *r, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(r->place, sizeof r->place, format, arguments);
-    va_end(arguments);
-}
-
-bool gltf_bad(struct gltf_reader *r, const char *format, ...)
-{
-    char text[256];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return fail(r->error, ERROR_INPUT, "%s: %s%s", r->file.path, r->place, text);
-}
-
 void *gltf_make(struct gltf_reader *r, size_t count, size_t size)
 {
     if (count > r->file.room / size) {
