@@ -21,6 +21,8 @@ struct obj_lines {
     char *next, *line; ///< `line` ends with a NUL, without comments and with continuations joined
     int number;        ///< from 1
     bool joins;        ///< a line that ends in a backslash continues on the next
+    const char *path;  ///< and what takes an error of the file
+    struct error *error;
 };
 
 static char *obj_skip_space(char *at) { return at + strspn(at, " \t\r"); }
@@ -139,24 +141,16 @@ static void obj_read_materials(const char *obj_path, const char *name, struct su
     free(text);
 }
 
-struct obj_reader {
-    const char *path;
-    struct obj_lines lines;
-    struct surface_builder *builder;
-    struct error *error;
-};
-
-static bool obj_expected(const struct obj_reader *r, const char *what, const char *got)
+static bool obj_expected(const struct obj_lines *l, const char *what, const char *got)
 {
     int shown = (int)strcspn(got, " \t\r");
-    if (shown == 0)
-        return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got nothing", r->path, r->lines.number, what);
+    if (shown == 0) return fail(l->error, ERROR_INPUT, "%s:%d: expected %s, got nothing", l->path, l->number, what);
     if (shown > SHOWN_MAX) shown = SHOWN_MAX;
-    return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", r->path, r->lines.number, what, shown, got);
+    return fail(l->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", l->path, l->number, what, shown, got);
 }
 
 /// Up to `count` numbers; returns how many the line has, -1 if a word is not a number.
-static int obj_read_numbers(const struct obj_reader *r, char *at, double *numbers, int count)
+static int obj_read_numbers(const struct obj_lines *l, char *at, double *numbers, int count)
 {
     for (int i = 0; i < count; i++) {
         at = obj_skip_space(at);
@@ -164,7 +158,7 @@ static int obj_read_numbers(const struct obj_reader *r, char *at, double *number
         char *end;
         numbers[i] = (double)strtof(at, &end);
         if (end == at || !strchr(" \t\r", *end) || !isfinite(numbers[i])) {
-            obj_expected(r, "a finite number", at);
+            obj_expected(l, "a finite number", at);
             return -1;
         }
         at = end;
@@ -176,28 +170,27 @@ static bool obj_read(struct words *words, struct surface_builder *builder)
 {
     const char *text = words->at;
     const long size = words->end - text;
-    struct obj_reader r = {
-        .path = words->path, .lines = {.next = words->at, .joins = true}, .builder = builder, .error = words->error};
+    struct obj_lines lines = {.next = words->at, .joins = true, .path = words->path, .error = words->error};
+    const struct obj_lines *const l = &lines;
     if (memchr(text, '\0', (size_t)size))
-        return fail(r.error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", r.path);
-    while (!builder->failed && obj_next_line(&r.lines)) {
-        if (r.lines.number % TELLING == 0) progress_report("reading the mesh", r.lines.next - text, size);
-        const struct obj_lines *l = &r.lines;
+        return fail(l->error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", l->path);
+    while (!builder->failed && obj_next_line(&lines)) {
+        if (l->number % TELLING == 0) progress_report("reading the mesh", l->next - text, size);
         char *at;
         if ((at = obj_behind(l, "v"))) {
             double numbers[6]; // x y z [w | r g b]
-            const int count = obj_read_numbers(&r, at, numbers, 6);
+            const int count = obj_read_numbers(l, at, numbers, 6);
             if (count < 0) return false;
-            if (count < 3) return obj_expected(&r, "three coordinates of a vertex", "");
+            if (count < 3) return obj_expected(l, "three coordinates of a vertex", "");
             builder_vertex(builder, numbers);
             const double *wrong = count == 6 ? builder_wrong_color(numbers + 3) : NULL;
             if (wrong)
-                return fail(r.error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", r.path, l->number,
+                return fail(l->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", l->path, l->number,
                             *wrong);
             if (count == 6) builder_color(builder, numbers + 3);
         } else if ((at = obj_behind(l, "vt"))) { // u [v [w]], from the lower left of the picture
             double numbers[2] = {0};
-            if (obj_read_numbers(&r, at, numbers, 2) < 0) return false;
+            if (obj_read_numbers(l, at, numbers, 2) < 0) return false;
             builder_uv(builder, numbers[0], 1 - numbers[1]);
         } else if ((at = obj_behind(l, "f"))) { // a b c d … as the fan abc, acd, …
             while (*at) { // v, v/vt, v//vn or v/vt/vn, counted from 1 or backwards from -1 (the newest)
@@ -206,10 +199,10 @@ static bool obj_read(struct words *words, struct surface_builder *builder)
                 long index = strtol(at, &end, 10);
                 if (index < 0) index += vertices + 1;
                 const bool written = end > at && (*end == '/' || strchr(" \t\r", *end));
-                if (!written || index < 1 || index > INT_MAX) return obj_expected(&r, "the number of a vertex", at);
+                if (!written || index < 1 || index > INT_MAX) return obj_expected(l, "the number of a vertex", at);
                 char what[64];
                 snprintf(what, sizeof what, "a vertex from 1 to %d", vertices);
-                if (index > vertices) return obj_expected(&r, what, at);
+                if (index > vertices) return obj_expected(l, what, at);
                 long uv = *end == '/' && end[1] != '/' ? strtol(end + 1, NULL, 10) : 0;
                 if (uv < 0) uv += uvs + 1;
                 builder_corner(builder, (uint32_t)index - 1, uv >= 1 && uv <= uvs ? (uint32_t)uv - 1 : LOOKS_NONE);
@@ -217,12 +210,12 @@ static bool obj_read(struct words *words, struct surface_builder *builder)
             }
             const int count = builder_end_polygon(builder);
             if (count < 3)
-                return fail(r.error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", r.path,
+                return fail(l->error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", l->path,
                             l->number, count);
         } else if ((at = obj_behind(l, "usemtl"))) {
             builder->material = builder_material(builder, obj_name_at(at));
         } else if ((at = obj_behind(l, "mtllib"))) {
-            obj_read_materials(r.path, obj_name_at(at), builder);
+            obj_read_materials(l->path, obj_name_at(at), builder);
         }
     }
     return true;
