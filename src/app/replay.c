@@ -142,42 +142,28 @@ static bool check_frames(struct replay *replay, struct error *error)
     return true;
 }
 
-/// Reads the scene's text and checks the replay.
-static struct replay *finish_reading(struct replay *replay, size_t size, struct error *error)
+struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error)
 {
-    const bool whole =
-        strlen(replay->text) == size || fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", replay->path);
-    replay->at = replay->text;
+    struct replay *replay = need_zeroed(1, sizeof *replay);
+    *replay = (struct replay){.path = need_text(name), .header = {.scale = 1, .ui_scale = 1, .frames = -1}};
+    replay->text = replay->at = memcpy(need_zeroed(size + 1, 1), text, size);
     replay->end = replay->text + size;
+    const bool whole =
+        strlen(replay->text) == size || fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", name);
     for (char *end = replay->text; (end = strchr(end, '\n'));) *end++ = '\0';
     if (whole && read_header(replay, error) && check_frames(replay, error)) return replay;
     replay_destroy(replay);
     return NULL;
 }
 
-static struct replay *create_replay(const char *path)
-{
-    struct replay *replay = need_zeroed(1, sizeof *replay);
-    replay->path = need_text(path);
-    replay->header.scale = replay->header.ui_scale = 1;
-    replay->header.frames = -1;
-    return replay;
-}
-
 struct replay *replay_load(const char *path, struct error *error)
 {
-    size_t size = 0;
-    struct replay *replay = create_replay(path);
-    if (file_read_text(path, MAX_REPLAY, &replay->text, &size, error)) return finish_reading(replay, size, error);
-    replay_destroy(replay);
-    return NULL;
-}
-
-struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error)
-{
-    struct replay *replay = create_replay(name);
-    replay->text = memcpy(need_zeroed(size + 1, 1), text, size);
-    return finish_reading(replay, size, error);
+    char *text;
+    size_t size;
+    if (!file_read_text(path, MAX_REPLAY, &text, &size, error)) return NULL;
+    struct replay *replay = replay_parse(path, text, size, error);
+    free(text);
+    return replay;
 }
 
 void replay_destroy(struct replay *replay)
