@@ -102,8 +102,7 @@ struct spline *spline_clone(const struct spline *spline)
     *clone = *spline;
     atomic_init(&clone->holders, 1);
     clone->name = copy_text(spline->name);
-    clone->knot_capacity = spline->knot_count + 1;
-    clone->knots = need((size_t)clone->knot_capacity, sizeof *clone->knots);
+    clone->knots = need((size_t)spline->knot_count + 1, sizeof *clone->knots); // mostly for one more knot
     for (int k = 0; k < spline->knot_count; k++) clone->knots[k] = spline->knots[k];
     motion_hold(clone->parameter[PARAMETER_EQUILIBRIUM].motion);
     return clone;

@@ -55,7 +55,7 @@ struct spline {
     char *name;
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
-    int knot_count, knot_capacity;
+    int knot_count;
     int color;   ///< 0xRRGGBB, or -1: from the theme, in turn
     unsigned id; ///< like a knot's
     struct json_t *extra;

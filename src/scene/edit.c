@@ -322,7 +322,6 @@ bool edit_spline_add(struct document *document, int at, const char *name, const 
     }
     if (document_loops(document)) spline->parameter[PARAMETER_START].value = WIGGLY_LOOP;
     spline->knots = need(1, sizeof *spline->knots);
-    spline->knot_capacity = 1;
     if (first) {
         spline->knot_count = 1;
         spline->knots[0] = (struct knot){
@@ -552,10 +551,7 @@ bool edit_knot_insert(struct document *document, int spline, const struct knot *
     if (added.id == 0) added.id = document->next_id;
     if (document->next_id <= added.id) document->next_id = added.id + 1;
     struct spline *own = document_own_spline(document, spline);
-    if (own->knot_count == own->knot_capacity) {
-        own->knot_capacity += own->knot_capacity / 2 + 1;
-        own->knots = need_more(own->knots, (size_t)own->knot_capacity, sizeof *own->knots);
-    }
+    own->knots = need_more(own->knots, (size_t)own->knot_count + 1, sizeof *own->knots);
     const int at = spline_lower_bound(document, own, document_sample(document, added.frame));
     memmove(&own->knots[at + 1], &own->knots[at], (size_t)(own->knot_count++ - at) * sizeof added);
     own->knots[at] = added;

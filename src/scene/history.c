@@ -21,7 +21,7 @@ struct history {
     struct document *document; ///< the document that is edited
     struct document *left;     ///< the document before the last undo, which this frame's panels may still read
     struct state *states;      ///< one more than there are steps
-    size_t step_count, capacity;
+    size_t step_count;
     size_t done;         ///< steps not undone: the current state's index
     size_t bytes, limit; ///< of all steps together
     size_t dropped;      ///< steps dropped to save memory
@@ -52,8 +52,7 @@ struct history *history_create(struct document *document)
 {
     struct history *history = need_zeroed(1, sizeof *history);
     history->limit = DEFAULT_LIMIT;
-    history->capacity = 16;
-    history->states = need_zeroed(history->capacity, sizeof *history->states);
+    history->states = need_zeroed(1, sizeof *history->states);
     history_clear(history, document);
     return history;
 }
@@ -127,10 +126,7 @@ bool history_end(struct history *history)
     history->left = NULL;
     if (joins) history->done--;
     history->step_count = history->done;
-    if (history->step_count + 1 == history->capacity) {
-        history->capacity *= 2;
-        history->states = need_more(history->states, history->capacity, sizeof *history->states);
-    }
+    history->states = need_more(history->states, history->step_count + 2, sizeof *history->states);
     const struct state next = {.document = document_copy(history->document),
                                .label = history->label,
                                .merge = history->merge,

@@ -55,7 +55,7 @@ static bool parse_json(const char *name, const char *text, struct knot_list *lis
     return reader.errors == 0;
 }
 
-enum { MAX_FIELDS = 64, MAX_FIELD = 64, FIRST_KNOTS = 64 };
+enum { MAX_FIELDS = 64, MAX_FIELD = 64 };
 
 enum column { COLUMN_FRAME, COLUMN_VALUE, COLUMN_SLOPE, COLUMN_STIFFNESS, COLUMN_IM, COLUMN_COUNT };
 
@@ -79,7 +79,6 @@ struct csv {
     struct line line;
     int at[COLUMN_COUNT]; ///< index of each column's field, -1: none
     struct knot_list *list;
-    int capacity;
     struct error *error;
 };
 
@@ -172,10 +171,7 @@ static bool csv_read_line(struct csv *csv, const char *text, size_t length, bool
     if (!good) return false;
     struct knot_list *list = csv->list;
     if (list->count == SCENE_MAX_KNOTS) return csv_fail(csv, "at most 100000 knots", "more");
-    if (list->count == csv->capacity) {
-        csv->capacity = csv->capacity > 0 ? 2 * csv->capacity : FIRST_KNOTS;
-        list->knots = need_more(list->knots, (size_t)csv->capacity, sizeof *list->knots);
-    }
+    list->knots = need_more(list->knots, (size_t)list->count + 1, sizeof *list->knots);
     list->knots[list->count++] = knot;
     return true;
 }

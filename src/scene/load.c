@@ -151,7 +151,6 @@ static void load_knots(struct reader *reader, const struct value *object, struct
         return;
     }
     list_load(reader, object, &knot_list_field, spline);
-    spline->knot_capacity = spline->knot_count;
     for (int i = 0; i < spline->knot_count; i++) spline->knots[i].id = document->next_id++;
     if (reader->errors > errors) return;
 
