@@ -1,6 +1,5 @@
 /// The user's settings, recent files and recovery, in interactive windows.
-#include "app/recovery.h"
-#include "app/settings.h"
+#include "app/personal.h"
 #include "app/state.h"
 #include "base/file.h"
 #include "base/names.h"

@@ -1,9 +1,8 @@
 /// The slots of recovery files, locked by running programs, the thread that writes them, and the rescue when the program must end.
-#include "app/recovery.h"
+#include "app/personal.h"
 #include "app/state.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "scene/load.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /// Reads and writes the settings file and its recent files.
-#include "app/settings.h"
+#include "app/personal.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/need.h"

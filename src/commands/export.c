@@ -8,7 +8,6 @@
 #include "commands/report.h"
 #include "platform/process.h"
 #include "rig/import.h"
-#include "scene/paint.h"
 #include "ui/theme.h"
 #include <stdio.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "maths/maths.h"
 #include "scene/pins.h"
 #include "scene/text.h"
-#include "spline/slope.h"
+#include "spline/forced_response.h"
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>

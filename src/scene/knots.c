@@ -1,7 +1,7 @@
 /// Reads and writes knots as JSON, and reads them from CSV lines frame,value[,slope[,stiffness[,im]]].
-#include "scene/knots.h"
 #include "base/need.h"
 #include "scene/fields.h"
+#include "scene/load.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /// Makes and changes paint, and reads and writes it as .npy.
-#include "scene/paint.h"
 #include "base/file.h"
 #include "base/need.h"
 #include "base/npy.h"
+#include "scene/rig.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>

@@ -31,4 +31,13 @@ double forced_response_slip(const wiggly_desc *desc, const forced_response *u, c
 /// u of an equilibrium that nothing swings about: 0.
 void forced_response_rest(const wiggly_desc *desc, const double *y, forced_response *u);
 
+// The slope of a solved curve at a sample: a knot with this slope and the curve's value does not change the curve.
+
+/// Numbers a sample that it needs where the equilibrium follows a track.
+enum { CURVE_SLOPE_ROOM = 3 + RESPONSE_ROOM };
+
+/// That slope, per second. `desc` is what was solved; of its knots only the last is read. `room` has CURVE_SLOPE_ROOM numbers a sample; NULL
+/// where the equilibrium is constant.
+double curve_slope(const wiggly_desc *desc, const wiggly_curve *curve, int sample, double *room);
+
 #endif

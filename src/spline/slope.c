@@ -1,5 +1,5 @@
 /// The slope of a solved curve at a sample.
-#include "spline/slope.h"
+#include "spline/forced_response.h"
 #include "spline/poles.h"
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include "questions.h"
 #include "world.h"
 
-#include "app/recovery.h"
+#include "app/personal.h"
 #include "base/need.h"
 #include "shown.h"
 #include <fcntl.h>

@@ -9,7 +9,7 @@
 #include "puppet.h"
 #include "questions.h"
 
-#include "app/recovery.h"
+#include "app/personal.h"
 #include <dirent.h>
 #include <sys/stat.h>
 #include <unistd.h>

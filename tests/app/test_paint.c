@@ -7,7 +7,6 @@
 #include "rig/models.h"
 #include "scene/edit.h"
 #include "scene/history.h"
-#include "scene/paint.h"
 #include <unistd.h>
 
 enum { COORDINATES = 2, VERTICES = 50 };

@@ -3,7 +3,7 @@
 #include "folder.h"
 #include "questions.h"
 
-#include "app/settings.h"
+#include "app/personal.h"
 #include "ui/theme.h"
 #include <sys/wait.h>
 #include <unistd.h>

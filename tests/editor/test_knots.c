@@ -2,7 +2,7 @@
 /// clipboard.
 #include "five_knots.h"
 #include "hands.h"
-#include "scene/knots.h"
+#include "scene/load.h"
 
 static const char SWAY[] =
     "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, 'knots': [<0 0>, "

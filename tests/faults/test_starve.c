@@ -6,7 +6,7 @@
 #include "folder.h"
 #include "gltf_builder.h"
 
-#include "app/recovery.h"
+#include "app/personal.h"
 #include "base/json.h"
 #include "base/lapack.h"
 #include "base/png.h"

@@ -4,10 +4,9 @@
 #include "folder.h"
 
 #include "app/film.h"
-#include "app/recovery.h"
+#include "app/personal.h"
 #include "commands/commands.h"
 #include "commands/report.h"
-#include "scene/paint.h"
 #include <errno.h>
 #include <signal.h>
 #include <sys/ptrace.h>

@@ -1,8 +1,8 @@
 /// The fuzz targets (`make fuzz`): a row for each reader, which hands the fuzzer's bytes to it and says what must hold. FUZZ_READER in the
 /// environment names the row; without it the program prints all names.
 #include "fuzz.h"
+#include "app/personal.h"
 #include "app/replay.h"
-#include "app/settings.h"
 #include "base/file.h"
 #include "commands/companion.h"
 #include "draw/posed.h"
@@ -13,9 +13,7 @@
 #include "model/motion.h"
 #include "model/surface.h"
 #include "rig/models.h"
-#include "scene/knots.h"
 #include "scene/load.h"
-#include "scene/paint.h"
 #include "simulation/integrator.h"
 #include "simulation/soft.h"
 #include "timing/framelog.h"

@@ -1,9 +1,8 @@
 /// The limits of files, pictures, the clipboard and of names that are taken: what lies at each is taken, what lies one above it is refused with
 /// a sentence. Large files are holes, which take no disk. And file systems that refuse rights, syncing, renaming or a name.
 
-#include "app/recovery.h"
+#include "app/personal.h"
 #include "app/replay.h"
-#include "app/settings.h"
 #include "base/file.h"
 #include "base/png.h"
 #include "blind.h"
@@ -13,9 +12,7 @@
 #include "model/gltf.h"
 #include "model/surface.h"
 #include "questions.h"
-#include "scene/knots.h"
 #include "scene/load.h"
-#include "scene/paint.h"
 #include "scene/text.h"
 #include <errno.h>
 #include <fcntl.h>

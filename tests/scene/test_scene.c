@@ -4,7 +4,7 @@
 
 #include "base/names.h"
 #include "scene/edit.h"
-#include "scene/knots.h"
+#include "scene/load.h"
 #include "scene/text.h"
 #include <dirent.h>
 #include <sys/stat.h>

@@ -4,7 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
 #include "editor/core/view.h"
-#include "scene/knots.h"
+#include "scene/load.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
