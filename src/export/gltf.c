@@ -110,13 +110,6 @@ static void add_channel(struct gltf_motion *motion, json_int_t node, enum gltf_p
         json_pack("{s:I, s:{s:I, s:s}}", "sampler", sampler, "target", "node", node, "path", paths[path].name));
 }
 
-static json_t *reals(struct gltf_file *file, const float *numbers, int count)
-{
-    json_t *array = json_array();
-    for (int k = 0; k < count; k++) gltf_append(file, array, json_real((double)numbers[k]));
-    return array;
-}
-
 // --- a scene
 
 struct scene {
@@ -192,8 +185,9 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
         for (int j = 0; j < form.joint_count; j++) {
             const struct form_joint *joint = &form.joints[j];
             const float *place = joint->parent < 0 ? keys.rows : joint->offset;
-            json_t *own = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", reals(file, place, 3),
-                                    "rotation", reals(file, keys.rows + keys_rotation(j), 4));
+            json_t *own =
+                json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", gltf_numbers(file, place, 3),
+                          "rotation", gltf_numbers(file, keys.rows + keys_rotation(j), 4));
             gltf_append(file, joints, json_integer(gltf_append(file, scene->nodes, own)));
             for (int k = 0; k < 4; k++) inverse[j][5 * k] = 1;
             for (int k = 0; k < 3; k++) inverse[j][12 + k] = -joint->bind[k];
@@ -209,7 +203,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
             json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices, "skeleton", first_joint));
         gltf_set(file, node, "skin", json_integer(skin));
     } else {
-        gltf_set(file, node, "translation", reals(file, keys.rows, 3));
+        gltf_set(file, node, "translation", gltf_numbers(file, keys.rows, 3));
     }
 
     // The channels that move it.
@@ -648,9 +642,9 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
         if (!path || (strcmp(path, "translation") && strcmp(path, "rotation") && strcmp(path, "scale"))) continue;
         const struct gltf_place *place = &body->gltf->nodes[n].place;
         json_object_del(node, "matrix");
-        gltf_set(file, node, "translation", reals(file, place->translation, 3));
-        gltf_set(file, node, "rotation", reals(file, place->rotation, 4));
-        gltf_set(file, node, "scale", reals(file, place->scale, 3));
+        gltf_set(file, node, "translation", gltf_numbers(file, place->translation, 3));
+        gltf_set(file, node, "rotation", gltf_numbers(file, place->rotation, 4));
+        gltf_set(file, node, "scale", gltf_numbers(file, place->scale, 3));
     }
     if (known < 0) {
         gltf_append_to(file, root, "animations", clip);
@@ -845,8 +839,8 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
                 gltf_append(&to, is_skinned ? roots : placed, json_incref(number));
             }
             if (json_array_size(placed) > 0) {
-                json_t *shown = json_pack("{s:s, s:o, s:O}", "name", "as shown", "matrix", reals(&to, root, 16),
-                                          "children", placed);
+                json_t *shown = json_pack("{s:s, s:o, s:O}", "name", "as shown", "matrix",
+                                          gltf_numbers(&to, root, 16), "children", placed);
                 gltf_append(&to, roots, json_integer(gltf_append(&to, nodes, shown)));
                 gltf_set(&to, scene, "nodes", json_incref(roots));
             }

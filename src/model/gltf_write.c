@@ -72,20 +72,25 @@ void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, jso
     gltf_append(file, json_object_get(object, key), value);
 }
 
+json_t *gltf_numbers(struct gltf_file *file, const float *numbers, int count)
+{
+    json_t *array = json_array();
+    for (int k = 0; k < count; k++) gltf_append(file, array, json_real((double)numbers[k]));
+    return array;
+}
+
 void gltf_file_bound(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components)
 {
-    json_t *low = json_array(), *high = json_array();
+    float least[16], most[16];
     for (int k = 0; k < components; k++) {
-        float least = INFINITY, most = -INFINITY;
+        least[k] = INFINITY, most[k] = -INFINITY;
         for (size_t i = 0; i < count; i++) {
-            least = fminf(least, numbers[i * (size_t)components + (size_t)k]);
-            most = fmaxf(most, numbers[i * (size_t)components + (size_t)k]);
+            least[k] = fminf(least[k], numbers[i * (size_t)components + (size_t)k]);
+            most[k] = fmaxf(most[k], numbers[i * (size_t)components + (size_t)k]);
         }
-        gltf_append(file, low, json_real((double)least));
-        gltf_append(file, high, json_real((double)most));
     }
-    gltf_set(file, accessor, "min", low);
-    gltf_set(file, accessor, "max", high);
+    gltf_set(file, accessor, "min", gltf_numbers(file, least, components));
+    gltf_set(file, accessor, "max", gltf_numbers(file, most, components));
 }
 
 /// Pads the bytes to a multiple of four.
@@ -230,8 +235,7 @@ static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *sh
     if (!l->materials) l->materials = json_array();
     if (!l->textures) l->textures = json_array();
     if (!l->images) l->images = json_array();
-    if (!attributes) l->file->without_memory = true;
-    for (uint32_t m = 0; attributes && m <= materials; m++) {
+    for (uint32_t m = 0; m <= materials; m++) {
         // Its corners. Successive polygons begin at different ones, so that readers can tell them apart.
         const bool polygons = looks && looks->joined;
         const size_t triangles = (size_t)shape->index_count / 3;
@@ -365,7 +369,6 @@ json_t *gltf_shape_json(struct gltf_looks *l, const struct gltf_shape *shape)
         gltf_set(l->file, mesh, "extras",
                  json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates));
     }
-    if (!targets) l->file->without_memory = true;
     json_decref(attributes);
     json_decref(targets);
     return mesh;

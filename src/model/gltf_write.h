@@ -48,6 +48,9 @@ size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size);
 json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
                          bool bounds);
 
+/// An array of numbers.
+json_t *gltf_numbers(struct gltf_file *file, const float *numbers, int count);
+
 /// States the least and largest of an accessor's elements.
 void gltf_file_bound(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components);
 

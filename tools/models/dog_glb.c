@@ -1,8 +1,6 @@
 /// dog_glb OUT.glb: makes assets/models/dog.glb: one skinned mesh with a primitive per material, its skeleton and clips.
-#include "base/file.h"
 #include "base/need.h"
 #include "base/png.h"
-#include "model/gltf_write.h"
 #include "model/vector.h"
 #include "models/dog.h"
 #include <assert.h>
@@ -74,13 +72,6 @@ static void pack(const struct output *o, const struct dog_piece *piece, const st
     pack_influences(o, piece, packed);
 }
 
-static json_t *vector_json(struct output *o, const float *numbers, int count)
-{
-    json_t *array = json_array();
-    for (int k = 0; k < count; k++) gltf_append(&o->file, array, json_real((double)numbers[k]));
-    return array;
-}
-
 static void add_bounds(struct output *o, json_t *accessor, const struct packed *rows, size_t count)
 {
     vec3s lo = glms_vec3_fill(INFINITY), hi = glms_vec3_fill(-INFINITY);
@@ -88,8 +79,8 @@ static void add_bounds(struct output *o, json_t *accessor, const struct packed *
         lo = glms_vec3_minv(lo, vec3_from(rows[v].position));
         hi = glms_vec3_maxv(hi, vec3_from(rows[v].position));
     }
-    gltf_set(&o->file, accessor, "min", vector_json(o, lo.raw, 3));
-    gltf_set(&o->file, accessor, "max", vector_json(o, hi.raw, 3));
+    gltf_set(&o->file, accessor, "min", gltf_numbers(&o->file, lo.raw, 3));
+    gltf_set(&o->file, accessor, "max", gltf_numbers(&o->file, hi.raw, 3));
 }
 
 /// Vertex rows, and an accessor for each column.
@@ -206,8 +197,8 @@ static json_t *make_nodes(struct output *o)
         }
         at = glms_quat_rotatev(glms_quat_inv(parent), at);
         q = glms_quat_normalize(glms_quat_mul(glms_quat_inv(parent), q));
-        json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", vector_json(o, at.raw, 3),
-                                 "rotation", vector_json(o, q.raw, 4));
+        json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation",
+                                 gltf_numbers(&o->file, at.raw, 3), "rotation", gltf_numbers(&o->file, q.raw, 4));
         gltf_append(&o->file, nodes, node);
         gltf_append_to(&o->file, json_array_get(nodes, (size_t)(joint->parent + 1)), "children", json_integer(j + 1));
     }
@@ -312,19 +303,6 @@ static json_t *make_json(struct output *o)
         "minFilter", 9987, "images", "name", "tag", "bufferView", o->picture, "mimeType", "image/png");
 }
 
-static bool write(const char *path, const struct dog_skeleton *skeleton, const struct dog_pieces *pieces,
-                  struct error *error)
-{
-    struct output o = {.skeleton = skeleton, .pieces = pieces};
-    struct file_output out;
-    if (!file_output_open(&out, path, error)) return false;
-    const bool written = gltf_file_write(&o.file, make_json(&o), true, out.stream, error);
-    gltf_file_free(&o.file);
-    if (written) return file_output_commit(&out, error);
-    file_output_discard(&out);
-    return false;
-}
-
 int main(int argc, char **argv)
 {
     if (argc != 2) {
@@ -342,9 +320,9 @@ int main(int argc, char **argv)
         vertices += pieces.pieces[p].mesh.vertex_count;
         triangles += pieces.pieces[p].mesh.index_count / 3;
     }
-    if (write(argv[1], &skeleton, &pieces, &error)) {
+    struct output o = {.skeleton = &skeleton, .pieces = &pieces};
+    if (model_write(argv[1], &o.file, make_json(&o), &error))
         printf("%s: %d joints, %d vertices, %d triangles\n", argv[1], skeleton.count, vertices, triangles);
-    }
     for (int p = 0; p < pieces.count; p++) mesh_free(&pieces.pieces[p].mesh);
     if (error.kind != ERROR_NONE) fprintf(stderr, "dog_glb: %s\n", error.text);
     return (int)error.kind;

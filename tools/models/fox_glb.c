@@ -1,8 +1,6 @@
 /// fox_glb OUT.glb: makes assets/models/fox.glb: the skin at several levels of detail (the scene shows the first) and the skeleton.
-#include "base/file.h"
 #include "base/need.h"
 #include "model/fox.h"
-#include "model/gltf_write.h"
 #include "model/vector.h"
 #include "models/fox_maker.h"
 #include <math.h>
@@ -76,32 +74,25 @@ static void round_weights(float weights[GLTF_INFLUENCES])
     weights[most] += rest;
 }
 
-static void part_create(struct gltf_part *part, size_t vertices, size_t indices)
+static void part_create(struct gltf_part *part, struct pool *pool, size_t vertices, size_t indices)
 {
-    *part = (struct gltf_part){.position = need_zeroed(vertices, sizeof *part->position),
-                               .normal = need_zeroed(vertices, sizeof *part->normal),
-                               .color = need_zeroed(vertices, sizeof *part->color),
-                               .mark = need_zeroed(vertices, sizeof *part->mark),
-                               .fur = need_zeroed(vertices, sizeof *part->fur),
-                               .joints = need_zeroed(vertices, sizeof *part->joints),
-                               .weights = need_zeroed(vertices, sizeof *part->weights),
-                               .along = need_zeroed(vertices, sizeof *part->along),
-                               .indices = need_zeroed(indices, sizeof *part->indices)};
-}
-
-static void part_free(struct gltf_part *part)
-{
-    void *const owned[] = {part->position, part->normal,  part->color, part->mark,   part->fur,
-                           part->joints,   part->weights, part->along, part->indices};
-    for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
+    *part = (struct gltf_part){.position = pool_take(pool, vertices, sizeof *part->position),
+                               .normal = pool_take(pool, vertices, sizeof *part->normal),
+                               .color = pool_take(pool, vertices, sizeof *part->color),
+                               .mark = pool_take(pool, vertices, sizeof *part->mark),
+                               .fur = pool_take(pool, vertices, sizeof *part->fur),
+                               .joints = pool_take(pool, vertices, sizeof *part->joints),
+                               .weights = pool_take(pool, vertices, sizeof *part->weights),
+                               .along = pool_take(pool, vertices, sizeof *part->along),
+                               .indices = pool_take(pool, indices, sizeof *part->indices)};
 }
 
 /// A material's triangles in the mesh's order, with their vertices.
-static void part_fill(const struct mesh *mesh, int material, struct gltf_part *part)
+static void part_fill(const struct mesh *mesh, int material, struct pool *pool, struct gltf_part *part)
 {
     const size_t vertices = (size_t)mesh->vertex_count;
     int *number = need(vertices, sizeof *number);
-    part_create(part, vertices, (size_t)mesh->index_count);
+    part_create(part, pool, vertices, (size_t)mesh->index_count);
     for (size_t v = 0; v < vertices; v++) number[v] = -1;
     for (int i = 0; i < mesh->index_count; i++) {
         const uint32_t v = mesh->indices[i];
@@ -132,7 +123,8 @@ static json_int_t add_rows(struct gltf_file *file, enum gltf_elements elements, 
 static json_t *make_primitive(struct gltf_file *file, const struct mesh *mesh, int material)
 {
     struct gltf_part part;
-    part_fill(mesh, material, &part);
+    struct pool pool = {0};
+    part_fill(mesh, material, &pool, &part);
     const size_t count = (size_t)part.vertex_count, indices = (size_t)part.index_count;
     const struct {
         const char *name;
@@ -155,7 +147,7 @@ static json_t *make_primitive(struct gltf_file *file, const struct mesh *mesh, i
                                        count, c == 0)));
     const json_int_t order =
         add_rows(file, ELEMENTS_INDICES, part.indices, sizeof(uint32_t), sizeof *part.indices, indices, false);
-    part_free(&part);
+    pool_free(&pool);
     return json_pack("{s:o, s:I, s:i}", "attributes", attributes, "indices", order, "material", material);
 }
 
@@ -174,13 +166,6 @@ static json_t *make_meshes(struct gltf_file *file)
     return meshes;
 }
 
-static json_t *vector_json(struct gltf_file *file, vec3s v)
-{
-    json_t *array = json_array();
-    for (int k = 0; k < 3; k++) gltf_append(file, array, json_real((double)v.raw[k]));
-    return array;
-}
-
 /// The skeleton, then the nodes that show the mesh.
 static json_t *make_nodes(struct gltf_file *file, json_t *joints, float (*inverse)[16])
 {
@@ -196,11 +181,11 @@ static json_t *make_nodes(struct gltf_file *file, json_t *joints, float (*invers
         } else {
             snprintf(name, sizeof name, "tail_%d", tail);
         }
+        const vec3s from_parent = glms_vec3_sub(place[n], place[parent]);
         const mat4s back = glms_translate_make(glms_vec3_negate(place[n]));
         memcpy(inverse[n - FOX_FIRST_LIMB], back.raw, sizeof *inverse);
         gltf_append(file, nodes,
-                    json_pack("{s:s, s:o}", "name", name, "translation",
-                              vector_json(file, glms_vec3_sub(place[n], place[parent]))));
+                    json_pack("{s:s, s:o}", "name", name, "translation", gltf_numbers(file, from_parent.raw, 3)));
         gltf_append_to(file, json_array_get(nodes, (size_t)parent), "children", json_integer(n));
         gltf_append(file, joints, json_integer(n));
     }
@@ -229,21 +214,12 @@ static json_t *make_json(struct gltf_file *file)
 int main(int argc, char **argv)
 {
     struct error error = {0};
-    struct file_output out;
     struct gltf_file file = {0};
     if (argc != 2) {
         fputs("usage: fox_glb OUT.glb\n", stderr);
         return ERROR_USAGE;
     }
-    if (file_output_open(&out, argv[1], &error)) {
-        const bool written = gltf_file_write(&file, make_json(&file), true, out.stream, &error);
-        gltf_file_free(&file);
-        if (written) {
-            file_output_commit(&out, &error);
-        } else {
-            file_output_discard(&out);
-        }
-    }
+    model_write(argv[1], &file, make_json(&file), &error);
     if (error.kind != ERROR_NONE) fprintf(stderr, "fox_glb: %s\n", error.text);
     return (int)error.kind;
 }

@@ -1,5 +1,6 @@
 /// Grows and frees triangle meshes, and colours the fox's coat.
 #include "models/mesh.h"
+#include "base/file.h"
 #include "base/need.h"
 #include "base/png.h"
 #include "model/fox.h"
@@ -34,6 +35,17 @@ void mesh_free(struct mesh *mesh)
     free(mesh->vertices);
     free(mesh->indices);
     *mesh = (struct mesh){0};
+}
+
+bool model_write(const char *path, struct gltf_file *file, json_t *root, struct error *error)
+{
+    struct file_output out;
+    const bool opened = file_output_open(&out, path, error);
+    const bool written = opened && gltf_file_write(file, root, true, out.stream, error);
+    if (!opened) json_decref(root);
+    if (opened && !written) file_output_discard(&out);
+    gltf_file_free(file);
+    return written && file_output_commit(&out, error);
 }
 
 #define EDGE 0.025f /* metres: half the width of a marking's edge; a narrower one costs triangles */

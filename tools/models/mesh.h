@@ -2,6 +2,7 @@
 #ifndef MODELS_MESH_H
 #define MODELS_MESH_H
 
+#include "model/gltf_write.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -29,6 +30,9 @@ void mesh_triangle(struct mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
 
 /// Leaves an empty mesh, all zero.
 void mesh_free(struct mesh *mesh);
+
+/// Writes a model's .glb; takes the JSON over and frees the bytes.
+bool model_write(const char *path, struct gltf_file *file, json_t *root, struct error *error);
 
 // Colours of the coat. Linear RGB.
 
