@@ -89,7 +89,7 @@ void text_json(struct text *text, json_t *value)
 {
     const char *key, *separator = "{ ";
     json_t *member;
-    char integer[32];
+    char plain[32];
     switch (json_typeof(value)) {
     case JSON_OBJECT:
         json_object_foreach(value, key, member)
@@ -113,21 +113,11 @@ void text_json(struct text *text, json_t *value)
     case JSON_STRING:
         text_quoted(text, json_string_value(value));
         break;
-    case JSON_INTEGER:
-        snprintf(integer, sizeof integer, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
-        text_string(text, integer);
-        break;
     case JSON_REAL:
         text_number(text, json_real_value(value));
         break;
-    case JSON_TRUE:
-        text_string(text, "true");
-        break;
-    case JSON_FALSE:
-        text_string(text, "false");
-        break;
-    case JSON_NULL:
-        text_string(text, "null");
+    default: // a whole number, true, false or null
+        text_bytes(text, plain, json_dumpb(value, plain, sizeof plain, JSON_ENCODE_ANY));
         break;
     }
 }
