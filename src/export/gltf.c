@@ -33,7 +33,7 @@ static void make_targets(struct form *form, const struct keys *keys, bool clampe
 {
     const int count = form->target_count;
     *targets = (struct file_targets){.clamped = clamped, .count = count};
-    targets->list = need_zeroed(2 * (size_t)count, sizeof *targets->list);
+    targets->list = pool_take(&form->pool, 2 * (size_t)count, sizeof *targets->list);
     for (int t = 0; t < count; t++) {
         struct file_target *target = &targets->list[t];
         *target = (struct file_target){.source = t, .scale = 1.0f, .name = form->targets[t].figure.name};
@@ -164,7 +164,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
                                .looks = form.looks,
                                .target_count = targets.count,
                                .character = form.character};
-    shape.targets = need((size_t)shape.target_count, sizeof *shape.targets);
+    shape.targets = pool_take(&form.pool, (size_t)shape.target_count, sizeof *shape.targets);
     for (int t = 0; t < shape.target_count; t++) {
         const struct file_target *target = &targets.list[t];
         const struct figure_target *of = &form.targets[target->source].figure;
@@ -172,7 +172,6 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
                                                       of->sign * target->scale, target->scale};
     }
     const json_int_t mesh = gltf_append(file, scene->meshes, gltf_shape_json(&scene->looks, &shape));
-    free(shape.targets);
     json_t *node = json_pack("{s:s, s:I}", "name", form.name, "mesh", mesh);
     const json_int_t mesh_node = gltf_append(file, scene->nodes, node);
     gltf_append(file, scene->roots, json_integer(mesh_node));
@@ -181,7 +180,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     const json_int_t first_joint = (json_int_t)json_array_size(scene->nodes);
     if (form.joint_count > 0) {
         json_t *joints = json_array();
-        float(*inverse)[16] = need_zeroed((size_t)form.joint_count, sizeof *inverse);
+        float(*inverse)[16] = pool_take(&form.pool, (size_t)form.joint_count, sizeof *inverse);
         for (int j = 0; j < form.joint_count; j++) {
             const struct form_joint *joint = &form.joints[j];
             const float *place = joint->parent < 0 ? keys.rows : joint->offset;
@@ -197,7 +196,6 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
         }
         gltf_append(file, scene->roots, json_integer(first_joint));
         const json_int_t matrices = gltf_file_add(file, ELEMENTS_MATRICES, inverse, (size_t)form.joint_count, false);
-        free(inverse);
         const json_int_t skin = gltf_append(
             file, scene->skins,
             json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices, "skeleton", first_joint));
@@ -217,7 +215,8 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     }
     const int width = targets.count;
     const size_t count = (size_t)width * (size_t)keys.count;
-    float *values = need(count, sizeof *values), *slopes = keys.slopes ? need_zeroed(count, sizeof *slopes) : NULL;
+    float *values = pool_take(&form.pool, count, sizeof *values);
+    float *slopes = keys.slopes ? pool_take(&form.pool, count, sizeof *slopes) : NULL;
     for (int i = 0; i < width * keys.count; i++) {
         const struct file_target *target = &targets.list[i % width];
         const int column = keys_weight(&keys, target->source);
@@ -229,11 +228,8 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     if (width > 0)
         add_channel(&scene->motion, mesh_node, GLTF_WEIGHTS,
                     add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
-    free(values);
-    free(slopes);
     scene->joints += form.joint_count - form.first_bone;
     scene->targets += targets.count;
-    free(targets.list);
     form_close(&form);
     return true;
 }
@@ -367,12 +363,13 @@ static void push_key(struct gltf_channel *to, double time, const float *key, boo
     }
 }
 
-static void reserve_keys(struct gltf_channel *channel, size_t keys, const struct gltf_channel *like)
+static void reserve_keys(struct gltf_channel *channel, struct pool *pool, size_t keys,
+                         const struct gltf_channel *like)
 {
     *channel = *like;
     channel->key_count = 0;
-    channel->times = need(keys, sizeof *channel->times);
-    channel->values = need(keys * (size_t)stride_of(like), sizeof *channel->values);
+    channel->times = pool_take(pool, keys, sizeof *channel->times);
+    channel->values = pool_take(pool, keys * (size_t)stride_of(like), sizeof *channel->values);
 }
 
 /// Adds the curve's value and slope at a time between its keys.
@@ -415,6 +412,7 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
     bool good = glb_numbers(stored, glb_integer(sampler, "input", -1), &times, &error) &&
                 glb_numbers(stored, glb_integer(sampler, "output", -1), &values, &error) && times.components == 1 &&
                 times.count > 0;
+    struct pool pool = {0};
     struct gltf_channel unrolled, result,
         own = {.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
     if (interpolation && strcmp(interpolation, "STEP") == 0) own.interpolation = GLTF_STEP;
@@ -425,8 +423,8 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
     if (good) {
         own.key_count = times.count;
         own.components = (int)(all_values / all_keys);
-        own.times = need((size_t)times.count, sizeof *own.times);
-        own.values = need(all_values, sizeof *own.values);
+        own.times = pool_take(&pool, (size_t)times.count, sizeof *own.times);
+        own.values = pool_take(&pool, all_values, sizeof *own.values);
         for (int k = 0; k < times.count; k++) own.times[k] = (float)times.values[k];
         for (size_t i = 0; i < all_values; i++) own.values[i] = (float)values.values[i];
     }
@@ -437,7 +435,7 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
     const int stride = stride_of(&own), middle = stride > own.components ? own.components : 0, count = own.key_count;
 
     // The keys of all rounds, in the exported file's times. A channel that begins after its clip, or ends before, stands still there.
-    reserve_keys(&unrolled, (size_t)(count + 2) * (size_t)(part->rounds[1] - part->rounds[0] + 1), &own);
+    reserve_keys(&unrolled, &pool, (size_t)(count + 2) * (size_t)(part->rounds[1] - part->rounds[0] + 1), &own);
     for (int round = part->rounds[0]; round <= part->rounds[1]; round++) {
         const double later = part->shift + round * part->play.length;
         if ((double)own.times[0] > part->play.first)
@@ -450,7 +448,7 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
 
     // Of these the part that is exported.
     const double first = part->from + part->shift, last = part->to + part->shift;
-    reserve_keys(&result, (size_t)unrolled.key_count + 2, &unrolled);
+    reserve_keys(&result, &pool, (size_t)unrolled.key_count + 2, &unrolled);
     push_between(&result, &unrolled, first);
     for (int k = 0; k < unrolled.key_count; k++) {
         const double time = (double)unrolled.times[k];
@@ -465,11 +463,7 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
         gltf_set(file, sampler, "output",
                  json_integer(gltf_file_add(file, kinds[element], result.values, total / (size_t)element, false)));
     }
-    struct gltf_channel *const all[] = {&own, &unrolled, &result};
-    for (int i = 0; i < 3; i++) {
-        free(all[i]->times);
-        free(all[i]->values);
-    }
+    pool_free(&pool);
 }
 
 /// The node and path that a channel moves are those of a chain's bone.
@@ -519,8 +513,8 @@ static bool collect_clip_keys(struct export_range *range, struct form *form, con
         }
     }
 
-    double *frames = need((size_t)count, sizeof *frames);
-    float *seconds = need((size_t)count, sizeof *seconds);
+    double *frames = pool_take(&form->pool, (size_t)count, sizeof *frames);
+    float *seconds = pool_take(&form->pool, (size_t)count, sizeof *seconds);
     for (int k = 0; k < count; k++) {
         frames[k] = times.list[k].at * fps;
         seconds[k] = times.list[k].time;
@@ -534,8 +528,6 @@ static bool collect_clip_keys(struct export_range *range, struct form *form, con
     range->frames = NULL;
     range->key_count = on_grid;
     motion->times = gltf_file_add(motion->file, ELEMENTS_KEYS, seconds, (size_t)count, true);
-    free(frames);
-    free(seconds);
     return done;
 }
 
