@@ -1,6 +1,5 @@
 /// Opens .glb and .gltf files with their external files and data URIs, decompresses their meshes, and reads accessors.
 #include "model/glb.h"
-#include "base/base64.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/npy.h"

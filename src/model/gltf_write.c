@@ -1,6 +1,6 @@
 /// Assembles glTF files: accessors and their bytes, meshes, materials and pictures.
 #include "model/gltf_write.h"
-#include "base/base64.h"
+#include "base/json.h"
 #include "base/need.h"
 #include "base/npy.h"
 #include "model/adjacency.h"

@@ -1,5 +1,5 @@
 /// Rigs (rig.h): their angles and paint, the members of each kind in the file, and how they are made, copied, read and printed.
-#include "base/base64.h"
+#include "base/json.h"
 #include "base/need.h"
 #include "scene/fields.h"
 #include "scene/pins.h"
