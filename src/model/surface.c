@@ -1,9 +1,9 @@
 /// Measures and frees surfaces; builds them vertex by vertex and polygon by polygon, and splits text into words and numbers, for their readers.
+#include "model/surface.h"
 #include "base/names.h"
 #include "base/need.h"
 #include "base/png.h"
 #include "model/adjacency.h"
-#include "model/surface.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

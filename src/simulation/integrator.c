@@ -263,9 +263,9 @@ void integrator_create(struct integrator *integrator, struct body *body, double 
     *integrator = (struct integrator){.body = body, .step = step, .tolerance = 1e-9};
     struct pool *pool = &integrator->pool;
     struct integrator_work *w = integrator->work = pool_take(pool, 1, sizeof *w);
-    double(**const vectors[])[3] = {&integrator->x, &integrator->v, &w->a,     &w->y,
-                                    &w->target,     &w->origin,     &w->start, &w->force,
-                                    &w->downhill,   &w->direction,  &w->moved, &w->drag};
+    typedef double point[3];
+    point **const vectors[] = {&integrator->x, &integrator->v, &w->a,        &w->y,         &w->target, &w->origin,
+                               &w->start,      &w->force,      &w->downhill, &w->direction, &w->moved,  &w->drag};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
         *vectors[i] = pool_take(pool, n, sizeof **vectors[i]);
     w->lagged = body->stiffness;
