@@ -225,9 +225,6 @@ void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);
 /// Turns a normal by a matrix, whatever its scale; a mirror turns it round, with the triangles. Its length is 1 then.
 void gltf_turn_normal(const float matrix[16], float normal[3]);
 
-/// What skinning multiplies the vertices of a skin's joint by: world of the joint · inverse bind. The same as in `joints`.
-void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, int skin, int joint, float matrix[16]);
-
 /// Positions of all vertices of one node's mesh in the model's space, part after part, morphed and skinned: the reference for what the
 /// stage draws and what is exported. `normals` may be NULL. Allocates nothing.
 void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, int node, float (*positions)[3],

@@ -47,16 +47,12 @@ void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose)
         memcpy(pose->world[n], &m, sizeof m);
     }
     for (int s = 0; s < gltf->skin_count; s++) {
-        for (int j = 0; j < gltf->skins[s].joint_count; j++)
-            gltf_joint_matrix(gltf, pose, s, j, pose->joints[gltf->skins[s].first_joint + j]);
+        const struct gltf_skin *skin = &gltf->skins[s];
+        for (int j = 0; j < skin->joint_count; j++) {
+            mat4s m = glms_mat4_mul(mat4_from(pose->world[skin->joints[j]]), mat4_from(skin->inverse_bind[j]));
+            memcpy(pose->joints[skin->first_joint + j], &m, sizeof m);
+        }
     }
-}
-
-void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, int skin, int joint, float matrix[16])
-{
-    const struct gltf_skin *s = &gltf->skins[skin];
-    mat4s m = glms_mat4_mul(mat4_from(pose->world[s->joints[joint]]), mat4_from(s->inverse_bind[joint]));
-    memcpy(matrix, &m, sizeof m);
 }
 
 // --- vertices

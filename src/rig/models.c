@@ -92,7 +92,8 @@ bool imported_back(const struct imported *imported, float back[2])
     return gltf->skin_count > 0 && hi[2] - lo[2] > hi[0] - lo[0];
 }
 
-bool imported_complete(struct imported *imported)
+/// Derives everything else from `gltf`. False if memory is short.
+static bool imported_complete(struct imported *imported)
 {
     if (!gltf_pose_create(&imported->gltf, &imported->rest) ||
         !gltf_bounds_create(&imported->gltf, &imported->bounds))

@@ -37,9 +37,6 @@ struct imported {
 
 /// Reads a .glb or .gltf. On error nothing is left to free.
 bool imported_read(struct imported *imported, const char *path, struct error *error);
-
-/// Derives everything else from `gltf`. False if memory is short.
-bool imported_complete(struct imported *imported);
 void imported_free(struct imported *imported);
 
 /// Where a bone begins and ends in a pose, in the character's space.

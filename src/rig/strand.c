@@ -89,7 +89,8 @@ int rig_body(const struct document *document, int rig)
     return of->kind == RIG_CHAIN ? document_find_model(document, of->chain.model, of->chain.by_file) : rig;
 }
 
-bool strand_of_chain(const struct chain *chain, const struct imported *imported, struct strand *strand)
+/// False if the model lacks the chain's bones.
+static bool strand_of_chain(const struct chain *chain, const struct imported *imported, struct strand *strand)
 {
     *strand = (struct strand){.channels = chain->channels,
                               .channel_count = chain->channel_count,

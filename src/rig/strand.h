@@ -32,9 +32,6 @@ struct strand {
     struct chain_axes axes;
 };
 
-/// False if the model lacks the chain's bones.
-bool strand_of_chain(const struct chain *chain, const struct imported *imported, struct strand *strand);
-
 /// The strand of a rig, if it bends that body.
 bool strand_find(const struct posing *posing, int body, int rig, struct strand *strand);
 
