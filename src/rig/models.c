@@ -282,12 +282,6 @@ struct model_file {
     };
 };
 
-/// A cache of models by path; a model is read again only if its file has changed.
-struct model_files {
-    struct model_file **files;
-    int count;
-};
-
 static void file_destroy(struct model_file *file)
 {
     if (!file) return;
@@ -298,46 +292,6 @@ static void file_destroy(struct model_file *file)
     }
     free(file->path);
     free(file);
-}
-
-/// The model in a file, read again only if the file has changed; NULL and an error if it cannot be read.
-static const struct model_file *read_model(struct model_files *files, const char *path, enum model_kind kind,
-                                           struct error *error)
-{
-    struct stat status = {0};
-    const bool is_there = stat(path, &status) == 0;
-    struct model_file **old = NULL;
-    for (int i = 0; i < files->count && !old; i++) {
-        if (files->files[i]->kind == kind && strcmp(files->files[i]->path, path) == 0) old = &files->files[i];
-    }
-    if (old && is_there && (*old)->size == status.st_size && (*old)->changed.tv_sec == status.st_mtim.tv_sec &&
-        (*old)->changed.tv_nsec == status.st_mtim.tv_nsec)
-        return *old;
-
-    struct model_file *file = need_zeroed(1, sizeof *file);
-    struct character character = {0};
-    file->path = need_text(path);
-    file->kind = kind;
-    bool good =
-        kind == MODEL_FIGURE ? character_read(path, &character, error) : imported_read(&file->imported, path, error);
-    if (good && kind == MODEL_FIGURE && !figure_has_room(&character)) {
-        character_free(&character);
-        good = fail_no_memory(error, path);
-    }
-    if (!good) {
-        file_destroy(file);
-        return NULL;
-    }
-    if (kind == MODEL_FIGURE) figure_create(&file->figure, &character);
-    file->changed = status.st_mtim;
-    file->size = status.st_size;
-
-    if (old) {
-        file_destroy(*old);
-        return *old = file;
-    }
-    files->files = need_more(files->files, (size_t)files->count + 1, sizeof *files->files);
-    return files->files[files->count++] = file;
 }
 
 // --- the models of a document
@@ -359,7 +313,8 @@ struct placed_model {
 };
 
 struct models {
-    struct model_files files;
+    struct model_file **files; ///< a cache by path
+    int file_count;
     struct placed_model *placed; ///< in the order of the document
     int placed_count;
     struct placed_model *tails; ///< in the order of the document
@@ -400,8 +355,8 @@ void models_destroy(struct models *models)
     for (int i = 0; i < models->tail_count; i++) free_placed(&models->tails[i]);
     free(models->placed);
     free(models->tails);
-    for (int i = 0; i < models->files.count; i++) file_destroy(models->files.files[i]);
-    free(models->files.files);
+    for (int i = 0; i < models->file_count; i++) file_destroy(models->files[i]);
+    free(models->files);
     free(models->characters);
     free(models);
 }
@@ -412,10 +367,49 @@ bool models_paint_fits(const struct paint *paint, const struct figure *figure)
            paint->vertices == figure->character.vertex_count;
 }
 
-static bool resolve_model(const struct document *document, const char *model, char path[PATH_LIMIT],
-                          struct error *error)
+/// The model in a file named by the document, read again only if the file has changed; NULL and an error if it cannot be read.
+static const struct model_file *read_model(struct models *models, const struct document *document, const char *name,
+                                           enum model_kind kind, struct error *error)
 {
-    return path_resolve(document->folder, model, path) || fail(error, ERROR_INPUT, "%s: the path is too long", model);
+    char path[PATH_LIMIT];
+    if (!path_resolve(document->folder, name, path)) {
+        fail(error, ERROR_INPUT, "%s: the path is too long", name);
+        return NULL;
+    }
+    struct stat status = {0};
+    const bool is_there = stat(path, &status) == 0;
+    struct model_file **old = NULL;
+    for (int i = 0; i < models->file_count && !old; i++) {
+        if (models->files[i]->kind == kind && strcmp(models->files[i]->path, path) == 0) old = &models->files[i];
+    }
+    if (old && is_there && (*old)->size == status.st_size && (*old)->changed.tv_sec == status.st_mtim.tv_sec &&
+        (*old)->changed.tv_nsec == status.st_mtim.tv_nsec)
+        return *old;
+
+    struct model_file *file = need_zeroed(1, sizeof *file);
+    struct character character = {0};
+    file->path = need_text(path);
+    file->kind = kind;
+    bool good =
+        kind == MODEL_FIGURE ? character_read(path, &character, error) : imported_read(&file->imported, path, error);
+    if (good && kind == MODEL_FIGURE && !figure_has_room(&character)) {
+        character_free(&character);
+        good = fail_no_memory(error, path);
+    }
+    if (!good) {
+        file_destroy(file);
+        return NULL;
+    }
+    if (kind == MODEL_FIGURE) figure_create(&file->figure, &character);
+    file->changed = status.st_mtim;
+    file->size = status.st_size;
+
+    if (old) {
+        file_destroy(*old);
+        return *old = file;
+    }
+    models->files = need_more(models->files, (size_t)models->file_count + 1, sizeof *models->files);
+    return models->files[models->file_count++] = file;
 }
 
 /// Whether a rig's model, with `points` points, has all points that are pinned.
@@ -435,9 +429,7 @@ static const struct figure *find_figure(struct models *models, const struct docu
                                         struct error *error)
 {
     const struct character_rig *rig = &of->character;
-    char path[PATH_LIMIT];
-    if (!resolve_model(document, rig->model, path, error)) return NULL;
-    const struct model_file *file = read_model(&models->files, path, MODEL_FIGURE, error);
+    const struct model_file *file = read_model(models, document, rig->model, MODEL_FIGURE, error);
     const struct figure *figure = file ? &file->figure : NULL;
     if (!figure) return NULL;
     const struct character *c = &figure->character;
@@ -496,10 +488,7 @@ bool models_update(struct models *models, const struct document *document, struc
         const struct model_rig *model = &document->rigs[rig]->model;
         struct placed_model *placed = &models->placed[models->placed_count++];
         *placed = (struct placed_model){.path = need_text(model->model)};
-        char path[PATH_LIMIT];
-        const struct model_file *file = resolve_model(document, model->model, path, &trouble)
-                                            ? read_model(&models->files, path, MODEL_IMPORTED, &trouble)
-                                            : NULL;
+        const struct model_file *file = read_model(models, document, model->model, MODEL_IMPORTED, &trouble);
         if (file && !make_poses(placed, &file->imported)) {
             fail_no_memory(&trouble, model->model);
         } else if (file && model->clip && gltf_find_clip(&file->imported.gltf, model->clip) < 0) {
