@@ -65,6 +65,18 @@ static inline void blind_key(struct blind *blind, int key, unsigned mods)
     blind_frame(blind);
 }
 
+/// Queues the keys that open an example, by words of its name.
+static inline void blind_send_example(struct blind *blind, const char *words)
+{
+    const char *const typed[] = {"examples", words};
+    blind_send_key(blind, KEY_F3, 0);
+    for (int i = 0; i < 2; i++) {
+        for (const char *c = typed[i]; *c; c++)
+            blind_send(blind, (struct event){.kind = EVENT_TEXT, .codepoint = (uint32_t)*c});
+        blind_send_key(blind, KEY_ENTER, 0);
+    }
+}
+
 /// Presses keys one after the other, apart by spaces: "^S" is Ctrl+S, "+I" Shift+I, "!A" Alt+A.
 static inline void blind_keys(struct blind *blind, const char *keys)
 {

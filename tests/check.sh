@@ -22,6 +22,15 @@ holds() { # <what> <command>...
 
 not() { ! "$@"; } # <command>...
 
+# The events of a replay that open an example.
+example() { # <frame> <words of its name>
+    echo "$1 key F3"
+    for words in examples "$2"; do
+        for ((i = 0; i < ${#words}; i++)); do printf '%d text U+%04X\n' "$1" "'${words:i:1}"; done
+        echo "$1 key Enter"
+    done
+}
+
 # Whether groups of tools/npm/fetched.txt are in a folder; else says why not. A package that is another one than the list names is a failed case.
 npm_has() { # <folder> <group>...
     local status=0

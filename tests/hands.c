@@ -370,7 +370,7 @@ static bool tells(const struct played *step)
         if (strcmp(changed, s->kept) == 0) WRONG(step, "%s", "nothing has changed");
         session_key(s, 'Z', MOD_CTRL);
         same(step, session_saved(s), s->kept);
-        session_key(s, 'Y', MOD_CTRL);
+        session_key(s, 'Z', MOD_CTRL | MOD_SHIFT);
         same(step, session_saved(s), changed);
     } else if (IS("steady")) {
         steady(step);

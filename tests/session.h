@@ -220,7 +220,7 @@ static inline void assert_one_step(struct session *session, const char *original
     assert_string_not_equal(changed, original);
     session_key(session, 'Z', MOD_CTRL);
     assert_saved(session, original);
-    session_key(session, 'Y', MOD_CTRL);
+    session_key(session, 'Z', MOD_CTRL | MOD_SHIFT);
     assert_saved(session, changed);
 }
 

@@ -130,7 +130,7 @@ else
     echo "skip - Blender or assimp-testmodels is not installed"
 fi
 
-# --- as a user meets them: Ctrl+7 from anywhere, scenes saved elsewhere, models that are missing or broken
+# --- as a user meets them: an example from anywhere, scenes saved elsewhere, models that are missing or broken
 
 session() { # <scene> <event>...: plays them; the document at the end is in deep/result.json
     wiggly live --no-draw --frames 1 --record header "$1" >said 2>&1
@@ -138,7 +138,7 @@ session() { # <scene> <event>...: plays them; the document at the end is in deep
     wiggly live --no-draw --replay events --result deep/result.json "$1"
 }
 mkdir deep
-expect 0 "Ctrl+7 opens Figure 7" session "$scenes/tail.json" "5 key 7 ctrl"
+expect 0 "Examples opens Figure 7" session "$scenes/tail.json" "$(example 5 "phases")"
 says "with the phases of its vertical movement" '"phases": "y"' "$(<deep/result.json)"
 expect 0 "saved in another folder it finds its model" wiggly check deep/result.json
 holds "by a path from there" [ -f "deep/$(sed -n 's/.*"model": "\(.*\)",/\1/p' deep/result.json)" ]

@@ -58,10 +58,10 @@ holds "plays to its last event" [ "$(grep -vc '^[#f]' killed.csv)" -eq 13 ]
 # A figure of the paper opens as an untitled scene, without a question unless work would be lost.
 cp "$session" own.json
 for n in 1 2 3 4 5 6; do
-    expect 0 "figure $n opens by its key" lines own.json 20 "5 key $n ctrl"
+    expect 0 "figure $n opens" lines own.json 20 "$(example 5 "figure $n")"
     holds "it is the scene of assets" cmp lines.json <(wiggly live --no-draw --frames 1 --result /dev/stdout "$root/assets/scenes/figure$n.json" | sed '/^}$/q')
 done
-expect 0 "a figure is no file's" lines own.json 40 "2 key 4 ctrl" "4 key S ctrl"
+expect 0 "a figure is no file's" lines own.json 40 "$(example 2 "figure 4")" "4 key S ctrl"
 holds "saving one leaves the file that was open before alone" cmp own.json "$session"
 
 # --- where a replay writes: into the folder of --saves, by names alone, else nowhere. One from anyone must be safe to play

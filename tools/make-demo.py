@@ -55,6 +55,17 @@ def pull(across, up):
     return lambda u: (across * eased(u), up * eased(u))
 
 
+def example(t, words):
+    """Opens one by its words."""
+    key(t, "F3")
+    for text in ("exa", words):
+        for letter in text:
+            t += 3
+            at(t, f"text U+{ord(letter):04X}")
+        t += 20
+        key(t, "Enter")
+
+
 def fox(t):
     say(t, "The curve hits every knot exactly and swings between them")
     t += 4 * SECOND
@@ -107,9 +118,9 @@ def record(t):
 
 
 def figures(t):
-    say(t, "Ctrl+1 to Ctrl+7: figures of the paper to play with")
-    key(t + 40, "1", "ctrl")
-    key(t + 220, "6", "ctrl")
+    say(t, "F3, Examples: figures of the paper to play with")
+    example(t + 40, "figure 1")
+    example(t + 180, "figure 6")
     to(t + 280, 120, "knot(sway,2)", lambda u: f"curve(sway,{54 + 22 * u:.3f},-0.9)")
     key(t + 500, "F10")
     return t + 9 * SECOND
@@ -117,18 +128,18 @@ def figures(t):
 
 def stage(t):
     say(t, "A soft bear: each part has its own lag")
-    key(t + 20, "7", "ctrl")
+    example(t + 20, "figure 7")
     t += 7 * SECOND
     say(t, "F5: the stage and the keys you press")
     key(t + 40, "F5")
     t += 4 * SECOND
     say(t, "Pins: drag a hand, and the rest swings")
-    key(t + 20, "9", "ctrl")
+    example(t + 20, "hands")
     hold(t + 90, 120, "pin(creature,0)", pull(-0.12, -0.15))
     hold(t + 290, 120, "pin(creature,0)", pull(0.12, 0.2))
     t += 10 * SECOND
     say(t, "Your own character: its tail and ears follow its walk")
-    key(t + 20, "8", "ctrl")
+    example(t + 20, "dog")
     hold(t + 120, 120, "chain(tail,0.9)", pull(0.12, 0.15))
     return t + 9 * SECOND
 

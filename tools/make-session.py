@@ -84,7 +84,7 @@ key(1000, "Home")
 drag(1004, 40, "stage(0.15,0.2)", lambda u: f"stage({0.15 + 0.1 * math.sin(2 * math.pi * u):.4f},0.2)", button="right")
 # Undo a series, redo most of it, drag once more.
 key(1050, "Z", "ctrl", times=12)
-key(1090, "Y", "ctrl", times=9)
+key(1090, "Z", "ctrl", "shift", times=9)
 drag(1124, 60, "knot(sway,0)", curve("sway", (8, 6), (1, 0.7), -0.3))
 
 write(sys.stdout, "make-session.py")

@@ -295,7 +295,7 @@ static struct document *parse_built_in(const char *name, struct error *error)
 /// Shows the subject of a paper's figure.
 static void show_subject(struct app *app, const char *name)
 {
-    if (strcmp(name, "figure2.json") == 0) editor_show_poles(app->work.editor);
+    editor_show_subject(app->work.editor, strcmp(name, "figure2.json") == 0, strcmp(name, "figure3.json") == 0);
 }
 
 bool app_open(struct app *app, const char *path, struct error *error)

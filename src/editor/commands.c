@@ -16,6 +16,7 @@
 enum show {
     SHOW_HELP,
     SHOW_PALETTE,
+    SHOW_EXAMPLES,
     SHOW_ALL,
     SHOW_SELECTION,
     SHOW_WHOLE_STAGE,
@@ -27,7 +28,8 @@ static void run_show(struct editor *e, int what)
 {
     const bool on_stage = core_panel_at(&e->core, e->core.input.pointer_x, e->core.input.pointer_y) == PANEL_STAGE;
     if (what == SHOW_HELP) dialogs_help(e->dialogs);
-    if (what == SHOW_PALETTE) dialogs_palette(e->dialogs);
+    if (what == SHOW_PALETTE) dialogs_palette(e->dialogs, 0);
+    if (what == SHOW_EXAMPLES) dialogs_palette(e->dialogs, IN_EXAMPLES);
     if (what == SHOW_ALL && !on_stage) curves_frame_all(e->curves, &e->core);
     if (what == SHOW_SELECTION) curves_frame_selection(e->curves, &e->core);
     if (what == SHOW_WHOLE_STAGE || (what == SHOW_ALL && on_stage)) stage_fit(e->stage, &e->core);
@@ -184,6 +186,9 @@ enum {
     }
 /// A row only in the palette.
 #define PALETTE(named, need, function, number) COMMAND(named, NOTHING, 0, need, 0, function, number, {0})
+/// A row of the list that Examples opens.
+#define EXAMPLE(named, number)                                                                                       \
+    COMMAND(named, NOTHING, IN_EXAMPLES, NOTHING, 0, .request = REQUEST_FIGURE, number, {0})
 /// A row only in F1: a gesture or held key.
 #define GESTURE(gestured, named, heading, places)                                                                    \
     {                                                                                                                \
@@ -209,13 +214,13 @@ const struct command commands[] = {
     COMMAND("Previous knot or pin", KNOTS, ON_PIN, KNOTS, REPEATS | PINS, .knot = core_select_neighbour, -1,
             {',', TYPED}),
     COMMAND("Go to the next knot or pin", KNOTS, 0, KNOTS, REPEATS | PINS, .knot = core_visit_neighbour, 1,
-            {'.', ALT}, {KEY_END, ALT}),
+            {KEY_END, ALT}),
     COMMAND("Go to the previous knot or pin", KNOTS, 0, KNOTS, REPEATS | PINS, .knot = core_visit_neighbour, -1,
-            {',', ALT}, {KEY_HOME, ALT}),
-    COMMAND("Also select the next knot", KNOTS, 0, KNOTS, REPEATS, .knot = core_extend_selection, 1, {'>', TYPED},
+            {KEY_HOME, ALT}),
+    COMMAND("Also select the next knot", KNOTS, 0, KNOTS, REPEATS, .knot = core_extend_selection, 1,
             {KEY_PAGE_DOWN, SHIFT}),
     COMMAND("Also select the previous knot", KNOTS, 0, KNOTS, REPEATS, .knot = core_extend_selection, -1,
-            {'<', TYPED}, {KEY_PAGE_UP, SHIFT}),
+            {KEY_PAGE_UP, SHIFT}),
     GESTURE("Alt+arrows", "Nudge (Shift: ×10, Ctrl: ×0.1)", KNOTS, ON_KNOT | ON_PIN),
     COMMAND("Copy", KNOTS, ON_KNOT, SELECTED, 0, .run = run_clipboard, CLIPBOARD_COPY, {'C', CTRL}),
     COMMAND("Cut", KNOTS, 0, SELECTED, 0, .run = run_clipboard, CLIPBOARD_CUT, {'X', CTRL}),
@@ -255,8 +260,7 @@ const struct command commands[] = {
     COMMAND("Previous spline", SPLINE, 0, SPLINE, REPEATS, .core = core_activate_neighbour, -1, {KEY_PAGE_UP, 0}),
     COMMAND("Rename the spline", SPLINE, ON_INSPECTOR, SPLINE, 0, .inspector = inspector_rename, 0, {KEY_F2, 0}),
     ALSO("mode interpolation", "Next kind: wiggly, spring, cubic", SPLINE, ON_INSPECTOR, SPLINE, 0,
-         .core = core_cycle_choice, PARAMETER_MODE, {'M', 0}),
-    COMMAND("Oscillator or filter", SPLINE, 0, SPLINE, 0, .core = core_cycle_choice, PARAMETER_PASSIVE, {'M', SHIFT}),
+         .core = core_cycle_mode, 0, {'M', 0}),
     ALSO("fit tempo", "Find the frequency of the knots", SPLINE, ON_INSPECTOR, SWING, 0, .core = core_find_frequency,
          0, {'F', SHIFT}),
     COMMAND("Compare: wiggly, stiff, cubic", SPLINE, ON_CURVES, NOTHING, ANY_TIME, .core = core_turn_look, 0,
@@ -266,8 +270,6 @@ const struct command commands[] = {
     GESTURE("Hold K", "Show the scene as it was kept", SPLINE, 0),
     GESTURE("Hold F, press ↑ ↓", "Frequency", SPLINE, 0),
     GESTURE("Hold Z, press ↑ ↓", "Damping", SPLINE, 0),
-    GESTURE("Hold B, press ↑ ↓", "Bandwidth", SPLINE, 0),
-    GESTURE("Hold C, press ↑ ↓", "Calm", SPLINE, 0),
     GESTURE("Hold L, press ↑ ↓", "Lag of the tail", SPLINE, 0),
 
     ALSO("stop start", "Play or pause", PLAYBACK, ON_CURVES | ON_TIME, NOTHING, 0, .core = playback_toggle, 0,
@@ -279,27 +281,24 @@ const struct command commands[] = {
     GESTURE("Drag the ruler", "Scrub", PLAYBACK, ON_TIME),
     GESTURE("Shift+drag it", "Play a part", PLAYBACK, ON_TIME),
     ALSO("loop cycle seamless", "Close all curves", PLAYBACK, 0, SPLINE, 0, .core = core_close_curves, 0, {0}),
-    ALSO("range in part", "Play from here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 0, {'[', TYPED},
+    ALSO("range in part", "Play from here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 0,
          {KEY_HOME, CTRL}),
-    ALSO("range out part", "Play up to here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 1, {']', TYPED},
+    ALSO("range out part", "Play up to here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 1,
          {KEY_END, CTRL}),
     ALSO("repeat cycle", "Loop on or off", PLAYBACK, ON_TIME, NOTHING, 0, .core = core_flip, SWITCH_LOOP,
          {'L', CTRL}),
-    ALSO("speed", "Play faster", PLAYBACK, 0, NOTHING, ANY_TIME, .core = playback_change_speed, 1, {'+', TYPED},
-         {'=', TYPED}),
+    ALSO("speed", "Play faster", PLAYBACK, 0, NOTHING, ANY_TIME, .core = playback_change_speed, 1, {'+', TYPED}),
     ALSO("speed", "Play slower", PLAYBACK, 0, NOTHING, ANY_TIME, .core = playback_change_speed, -1, {'-', TYPED}),
 
     GESTURE("Wheel", "Zoom (Ctrl: time, Shift: values)", CURVES, ON_CURVES),
-    COMMAND("Zoom in", CURVES, 0, NOTHING, REPEATS, .run = run_zoom, 1, {'+', CTRL}, {'=', CTRL},
-            {KEY_PAGE_UP, CTRL}),
-    COMMAND("Zoom out", CURVES, 0, NOTHING, REPEATS, .run = run_zoom, -1, {'-', CTRL}, {KEY_PAGE_DOWN, CTRL}),
+    COMMAND("Zoom in", CURVES, 0, NOTHING, REPEATS, .run = run_zoom, 1, {KEY_PAGE_UP, CTRL}),
+    COMMAND("Zoom out", CURVES, 0, NOTHING, REPEATS, .run = run_zoom, -1, {KEY_PAGE_DOWN, CTRL}),
     GESTURE("Middle drag", "Pan", CURVES, ON_CURVES),
     GESTURE("Ctrl+arrows", "Pan", CURVES, 0),
     ALSO("fit frame home", "Show all", CURVES, ON_CURVES, NOTHING, 0, .run = run_show, SHOW_ALL, {KEY_HOME, 0}),
     ALSO("fit frame", "Show the selection", CURVES, 0, SELECTED, 0, .run = run_show, SHOW_SELECTION, {KEY_END, 0}),
     COMMAND("Normalise: all curves equally high", CURVES, 0, NOTHING, 0, .core = core_flip, SWITCH_NORMALISE,
             {'N', 0}),
-    COMMAND("Phase curve", CURVES, 0, SWING, ANY_TIME, .core = core_flip, SWITCH_PHASE, {'V', SHIFT}),
     ALSO("timeline", "Dope sheet", CURVES, ON_TIME, NOTHING, 0, .core = core_flip, SWITCH_SHEET, {KEY_F7, 0}),
     COMMAND("Frames or seconds", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SECONDS, {'U', 0}),
     ALSO("grid magnet", "Snap to frames or not", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SNAP,
@@ -362,14 +361,18 @@ const struct command commands[] = {
          .inspector = inspector_remove_rig, 0, {KEY_DELETE, SHIFT}),
 
     ALSO("back", "Undo", FILE, 0, UNDO, REPEATS, .core = core_undo, -1, {'Z', CTRL}),
-    COMMAND("Redo", FILE, 0, REDO, REPEATS, .core = core_undo, 1, {'Y', CTRL}, {'Z', CTRL_SHIFT}),
+    COMMAND("Redo", FILE, 0, REDO, REPEATS, .core = core_undo, 1, {'Z', CTRL_SHIFT}),
     ALSO("load import", "Open a scene or character", FILE, 0, NOTHING, 0, .request = REQUEST_OPEN, 0, {'O', CTRL}),
-    COMMAND("New scene", FILE, 0, NOTHING, 0, .request = REQUEST_NEW, 0, {'N', CTRL}, {'N', ALT}),
+    COMMAND("New scene", FILE, 0, NOTHING, 0, .request = REQUEST_NEW, 0, {'N', CTRL}),
     COMMAND("Save", FILE, 0, NOTHING, 0, .request = REQUEST_SAVE, 0, {'S', CTRL}),
     COMMAND("Save as", FILE, 0, NOTHING, 0, .request = REQUEST_SAVE_AS, 0, {'S', CTRL_SHIFT}),
     ALSO("bake render video", "Export: Blender, film, table", FILE, 0, NOTHING, 0, .request = REQUEST_EXPORT, 0,
          {'E', CTRL}),
     ALSO("share", "Copy a link, in a browser", FILE, 0, PAGE, 0, .request = REQUEST_SHARE, 0, {'L', CTRL_SHIFT}),
+    ALSO("figure 1 2 3 4 5 6 7 resonance as a spline poles and response complex it stretches editable at any point "
+         "tail "
+         "from four knots phases of coordinate dog ears follow its walk creature held by hands scene",
+         "Examples", FILE, 0, NOTHING, 0, .run = run_show, SHOW_EXAMPLES, {0}),
     COMMAND("Quit", FILE, 0, NO_PAGE, 0, .request = REQUEST_QUIT, 0, {'Q', CTRL}),
 
     COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | FIRST, .run = run_show, SHOW_HELP, {KEY_F1, 0}),
@@ -380,26 +383,15 @@ const struct command commands[] = {
     GESTURE("Tab", "Panels, while presenting", WINDOW, 0),
     COMMAND("Resize the stage", WINDOW, 0, NOTHING, 0, .run = run_panel, 0, {KEY_F6, 0}),
     COMMAND("Resize the inspector", WINDOW, 0, NOTHING, 0, .run = run_panel, 1, {KEY_F6, SHIFT}),
-    ALSO("zoom font", "Everything larger", WINDOW, 0, NOTHING, REPEATS, .request = REQUEST_UI_SCALE, 1, {KEY_F8, 0},
-         {'+', CTRL_SHIFT}, {'=', CTRL_SHIFT}),
+    ALSO("zoom font", "Everything larger", WINDOW, 0, NOTHING, REPEATS, .request = REQUEST_UI_SCALE, 1, {KEY_F8, 0}),
     ALSO("zoom font", "Everything smaller", WINDOW, 0, NOTHING, REPEATS, .request = REQUEST_UI_SCALE, -1,
-         {KEY_F8, SHIFT}, {'-', CTRL_SHIFT}),
+         {KEY_F8, SHIFT}),
     COMMAND("Everything at the display's size", WINDOW, 0, NOTHING, 0, .request = REQUEST_UI_SCALE, 0,
             {'0', CTRL_SHIFT}),
     ALSO("theme colours", "Light or dark", WINDOW, 0, NOTHING, ANY_TIME, .run = run_show, SHOW_NEXT_THEME,
          {KEY_F10, 0}),
     COMMAND("Full screen", WINDOW, 0, NOTHING, ANY_TIME, .request = REQUEST_FULLSCREEN, 0, {KEY_F11, 0}),
     ALSO("picture image", "Screenshot", WINDOW, 0, NOTHING, ANY_TIME, .request = REQUEST_SCREENSHOT, 0, {KEY_F12, 0}),
-
-    COMMAND("Figure 1: resonance as a spline", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 1, {'1', CTRL}),
-    COMMAND("Figure 2: poles and response", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 2, {'2', CTRL}),
-    COMMAND("Figure 3: a complex spline", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 3, {'3', CTRL}),
-    COMMAND("Figure 4: it stretches", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 4, {'4', CTRL}),
-    COMMAND("Figure 5: editable at any point", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 5, {'5', CTRL}),
-    COMMAND("Figure 6: a tail from four knots", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 6, {'6', CTRL}),
-    COMMAND("Figure 7: phases of a coordinate", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 7, {'7', CTRL}),
-    COMMAND("A dog: tail and ears follow its walk", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 8, {'8', CTRL}),
-    COMMAND("A creature held by its hands", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 9, {'9', CTRL}),
 
     // Not in F1.
     ALSO("loop rest close", "Unfold Spline: kind, equilibrium, start", NOTHING, 0, SPLINE, 0,
@@ -410,7 +402,8 @@ const struct command commands[] = {
          0, {0}),
     PALETTE("Unfold Character: channels, paint", CHARACTER, .section = "section.character", 0),
     PALETTE("Unfold Pins", PINNABLE, .section = "section.pins", 0),
-    PALETTE("Unfold Advanced: bandwidth, calm", SPLINE, .section = "section.advanced", 0),
+    ALSO("oscillator filter passive imaginary", "Unfold Advanced: bandwidth, calm, phase curve", NOTHING, 0, SPLINE,
+         0, .section = "section.advanced", 0, {0}),
     ALSO("clamp lock range", "Unfold Limits and steadiness", NOTHING, 0, SPLINE, 0, .section = "section.limits", 0,
          {0}),
     PALETTE("Unfold Variation", SWING, .section = "section.variation", 0),
@@ -465,8 +458,19 @@ const struct command commands[] = {
     COMMAND("Orbit up", NOTHING, 0, NOTHING, REPEATS, .run = run_orbit, WAY_UP, {KEY_UP, CTRL_SHIFT}),
     COMMAND("Orbit down", NOTHING, 0, NOTHING, REPEATS, .run = run_orbit, WAY_DOWN, {KEY_DOWN, CTRL_SHIFT}),
     COMMAND(NULL, NOTHING, 0, NOTHING, REPEATS, .core = core_nudge_parameter, 1,
-            {KEY_UP, 0}), // of the parameter whose letter is held
+            {KEY_UP, 0}), // while F, Z or L is held
     COMMAND(NULL, NOTHING, 0, NOTHING, REPEATS, .core = core_nudge_parameter, -1, {KEY_DOWN, 0}),
+
+    // Only in the list of examples.
+    EXAMPLE("Figure 1: resonance as a spline", 1),
+    EXAMPLE("Figure 2: poles and response", 2),
+    EXAMPLE("Figure 3: a complex spline", 3),
+    EXAMPLE("Figure 4: it stretches", 4),
+    EXAMPLE("Figure 5: editable at any point", 5),
+    EXAMPLE("Figure 6: a tail from four knots", 6),
+    EXAMPLE("Figure 7: phases of a coordinate", 7),
+    EXAMPLE("A dog: tail and ears follow its walk", 8),
+    EXAMPLE("A creature held by its hands", 9),
 };
 
 const int command_count = sizeof commands / sizeof commands[0];
@@ -561,8 +565,8 @@ bool keys_event(struct editor *editor, const struct event *event)
         return !core->input.held_used && on_stage && keys_run(editor, event->key, 0, false); // F alone
     }
 
-    const bool is_held = event->key == 'L' || event->key == 'K' || parameter_of_letter(event->key) != PARAMETER_COUNT;
-    const bool holds = mods == 0 && is_held;
+    const int key = event->key;
+    const bool holds = mods == 0 && (key == 'F' || key == 'Z' || key == 'L' || key == 'K');
     if (holds && event->action == ACTION_PRESS) {
         core->input.held_key = event->key;
         core->input.held_used = false;

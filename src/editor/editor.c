@@ -113,7 +113,11 @@ static void end_event(struct editor *editor)
     inspector_show_spline(editor->inspector, core->focus.active);
 }
 
-void editor_show_poles(struct editor *editor) { editor->core.view.shows_poles = true; }
+void editor_show_subject(struct editor *editor, bool poles, bool phase)
+{
+    editor->core.view.shows_poles = poles;
+    editor->core.view.on[SWITCH_PHASE] = phase;
+}
 
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
 {
@@ -192,7 +196,7 @@ static const struct {
 } controls[CONTROLS] = {
     [PLAY] = {"play", "Play, pause (Space)", 24, playback_toggle, 0},
     [LOOP] = {"loop", "Loop or stop at the end (Ctrl+L)", 42, core_flip, SWITCH_LOOP},
-    [SPEED] = {"speed", "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)", 44,
+    [SPEED] = {"speed", "Click: faster; Shift+click: slower; right-click: real time (- and +, or the wheel)", 44,
                NULL, 0},
     [AUTO_KEY] = {"auto-key",
                   "Auto-key: dragging the body sets knots at the playhead; off, it moves the whole shot (Shift+A)",
@@ -201,9 +205,8 @@ static const struct {
               "Keep: an edit changes nothing beyond the next knot, which becomes a pose; hold Alt to swing through "
               "(Alt+A)",
               48, core_flip, SWITCH_KEEP},
-    [SIZE] = {"size",
-              "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)", 48,
-              NULL, 0},
+    [SIZE] = {"size", "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (F8, Shift+F8)",
+              48, NULL, 0},
     [PRESENT] = {"present", "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
                  28, presenter_toggle, 0},
 };

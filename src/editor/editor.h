@@ -23,8 +23,8 @@ void editor_refresh(struct editor *editor);
 /// Shows the rig the app added last, in the inspector and on the stage.
 void editor_show_last(struct editor *editor);
 
-/// Shows poles and response above the inspector's sections, until another scene opens.
-void editor_show_poles(struct editor *editor);
+/// Shows poles and response above the inspector's sections, or the phase curve, until another scene opens.
+void editor_show_subject(struct editor *editor, bool poles, bool phase);
 
 /// Ends any drag, before the app edits.
 void editor_let_go(struct editor *editor);

@@ -20,7 +20,6 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                              .unit = "Hz",
                              .hint = "Swings per second (hold F and press ↑ ↓)",
                              .undo = "Set frequency",
-                             .letter = "F",
                              .modes = IN_COMPLEX | IN_REAL,
                              .place = PLACE(frequency),
                              .maximum = INFINITY,
@@ -32,7 +31,6 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
     [PARAMETER_DAMPING] = {.name = "damping",
                            .hint = "0 rings forever, 1 is critical (hold Z and press ↑ ↓)",
                            .undo = "Set damping",
-                           .letter = "Z",
                            .modes = IN_COMPLEX | IN_REAL,
                            .place = PLACE(damping),
                            .maximum = INFINITY,
@@ -42,9 +40,8 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                            .step = 0.01,
                            .decimals = 2},
     [PARAMETER_BANDWIDTH] = {.name = "bandwidth",
-                             .hint = "How freely the swing may change its pace between knots (hold B and press ↑ ↓)",
+                             .hint = "How freely the swing may change its pace between knots",
                              .undo = "Set bandwidth",
-                             .letter = "B",
                              .modes = IN_COMPLEX,
                              .place = PLACE(bandwidth),
                              .maximum = 1,
@@ -54,9 +51,8 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                              .step = 0.01,
                              .decimals = 2},
     [PARAMETER_CALM] = {.name = "calm",
-                        .hint = "How much swing at the start costs; 0 is the paper's formula (hold C and press ↑ ↓)",
+                        .hint = "How much swing at the start costs; 0 is the paper's formula",
                         .undo = "Set calm",
-                        .letter = "C",
                         .kind = PARAMETER_NUMBER,
                         .modes = IN_COMPLEX | IN_REAL,
                         .place = PLACE(calm),
@@ -98,7 +94,7 @@ const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
                          .words = {"free", "rest", "loop"},
                          .labels = {"Free", "Rest", "Closed"}},
     [PARAMETER_PASSIVE] = {.name = "passive",
-                           .hint = "Swings by itself like a spring, or as the paper's filter does (Shift+M)",
+                           .hint = "Swings by itself like a spring, or as the paper's filter does",
                            .undo = "Change what moves by itself",
                            .kind = PARAMETER_CHOICE,
                            .modes = IN_ALL,
@@ -173,13 +169,6 @@ enum parameter parameter_find(const char *name)
 {
     enum parameter p = 0;
     while (p < PARAMETER_COUNT && strcmp(parameter_key(p), name) != 0) p++;
-    return p;
-}
-
-enum parameter parameter_of_letter(int letter)
-{
-    enum parameter p = 0;
-    while (p < PARAMETER_COUNT && (!parameter_rows[p].letter || parameter_rows[p].letter[0] != letter)) p++;
     return p;
 }
 

@@ -97,7 +97,6 @@ struct parameter_row {
     const char *key;  ///< in the file, where that is another
     const char *unit; ///< on screen, or NULL; a wind-up's numbers are periods
     const char *hint, *undo;
-    const char *letter; ///< key held while arrows change it, or NULL
     enum parameter_kind kind;
     unsigned modes;          ///< that use it: IN_COMPLEX | …
     size_t place;            ///< in wiggly_desc
@@ -128,9 +127,8 @@ static inline const char *parameter_key(enum parameter parameter)
     return row->key ? row->key : row->name;
 }
 
-/// The first parameter with that key in a file, or whose letter this is; PARAMETER_COUNT if there is none.
+/// The first parameter with that key in a file; PARAMETER_COUNT if there is none.
 enum parameter parameter_find(const char *name);
-enum parameter parameter_of_letter(int letter);
 
 /// Writes a parameter to its place in the description.
 void parameter_describe(enum parameter parameter, double value, const double *track, wiggly_desc *desc);

@@ -126,7 +126,7 @@ STUDIO_TEST(undo_and_redo_are_exact)
     hands(s, "wait 1");
     assert_memory_equal(models_figure(s->work.models, 0)->character.coordinates[0].re,
                         plain->character.coordinates[0].re, (size_t)plain->character.vertex_count * sizeof(float[3]));
-    hands(s, "key 2*Ctrl+Y");
+    hands(s, "key 2*Ctrl+Shift+Z");
     assert_memory_equal(paint_of(s)->values, twice, size);
     hands(s, "press " LEFT "; wait 5; key Escape");
     assert_memory_equal(paint_of(s)->values, twice, size);

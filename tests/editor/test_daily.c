@@ -52,7 +52,7 @@ SESSION_TEST(test_undo_returns_to_the_place, panel_open(s, scene, 1280, 720))
     assert_true(selection_has(selection_of(s->editor), id));
     assert_memory_equal(plot_of(s->editor), &plot, sizeof plot);
     assert_memory_equal(camera_of(s->editor), &camera, sizeof camera);
-    session_key(s, 'Y', MOD_CTRL);
+    session_key(s, 'Z', MOD_CTRL | MOD_SHIFT);
     assert_int_equal(selected(s->editor), 0);
 }
 

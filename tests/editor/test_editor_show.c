@@ -276,11 +276,13 @@ static bool curves_say(const struct session *s, const char *text)
 }
 
 /// Paused between two frames, the playhead names the frame on which I sets a knot. V: which way the curves are shown stands beside them for
-/// as long as they are. Shift+V: the phase curve, named where it is drawn.
+/// as long as they are. The phase curve is named where it is drawn.
 TAIL_TEST(test_the_curves_say_how_they_are_shown)
 {
     assert_false(curves_say(s, "phase"));
-    hands(s, "key Shift+V");
+    hands(s, "click spline.sway");
+    unfold(s->editor, "section.advanced");
+    hands(s, "click phase");
     assert_true(curves_say(s, "phase"));
     hands(s, "key V V");
     assert_true(curves_say(s, "Cubic"));

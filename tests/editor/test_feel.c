@@ -106,8 +106,7 @@ WALK(pose_to_pose_settles_at_every_knot, panel_open(s, tail_scene, 1280, 1700),
 
 /// Calm is of the whole curve, or of a loop.
 WALK(calm_shows_where_it_acts, panel_open(s, tail_scene, 1280, 1700),
-     "click section.advanced; finds calm; enter wind-up 12; lacks calm; hold C; key Down; let C; sway.calm 1 ~0;"
-     "said whole curves; click start.loop; finds calm")
+     "click section.advanced; finds calm; enter wind-up 12; lacks calm; click start.loop; finds calm")
 
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ). No sooner than with critical damping; then a second later.
 WALK(the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 900),

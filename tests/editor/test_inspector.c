@@ -478,7 +478,7 @@ WALK(test_a_long_history, open_list(s, 40),
      "finds history.40; lacks history.0; click history.36; is splines.0.knots.# 37;"
      "wheel 1 20; finds history.0; is splines.0.knots.# 37;" // looking is not going
      "click history.2; is splines.0.knots.# 3;"
-     "key 26*Ctrl+Y; finds history.28")
+     "key 26*Ctrl+Shift+Z; finds history.28")
 
 /// Over the list the wheel moves only that, until it is at its end; then the panel.
 SESSION_TEST(test_the_wheel_over_the_history, open_list(s, 40))

@@ -21,8 +21,8 @@ SESSION_TEST(speed_is_a_matter_of_the_view, open_at(s, 10))
 {
     hands(s, "type -; speed 0.5; type -; speed 0.25; type -; speed 0.1; type -; speed 0.1");
     playback_of(s->editor)->playing = true;
-    hands(s, "pass 1; playhead 12.4; type =; speed 0.25; type +; speed 0.5; type =; speed 1; type +; speed 2;"
-             "type =; speed 4; type +; speed 4");
+    hands(s, "pass 1; playhead 12.4; type +; speed 0.25; type +; speed 0.5; type +; speed 1; type +; speed 2;"
+             "type +; speed 4; type +; speed 4");
     seek(s->editor, 0);
     playback_of(s->editor)->playing = true;
     hands(s, "pass 0.5; playhead 48");
@@ -50,9 +50,9 @@ SESSION_TEST(fast_is_not_dropped, open_at(s, 0))
 /// From outside it begins at the start, and goes round; without a loop it stops at its end.
 SESSION_TEST(a_part_is_played, open_at(s, 20))
 {
-    hands(s, "type [");
+    hands(s, "key Ctrl+Home");
     seek(s->editor, 30);
-    hands(s, "type ]");
+    hands(s, "key Ctrl+End");
     seek(s->editor, 80);
     hands(s, "key Space; playhead 20.4; pass 0.25; playhead 26.4; pass 0.25; playhead 22.4; key Ctrl+L; pass 1;"
              "playhead 30; playing 0; key Space; playhead 20.4");
@@ -75,7 +75,7 @@ SESSION_TEST(a_part_is_dragged_on_the_ruler, open_at(s, 5))
 /// A part without an end, or with all of the scene in it, is all of it; one after its end goes to the scene's end.
 SESSION_TEST(a_part_without_an_end_is_all, open_at(s, 40))
 {
-    hands(s, "type ]; part 0 40; seek 60; type [; part 60 100; seek 0; type [; part 0 100");
+    hands(s, "key Ctrl+End; part 0 40; seek 60; key Ctrl+Home; part 60 100; seek 0; key Ctrl+Home; part 0 100");
     assert_false(plays_part(s->editor));
 }
 

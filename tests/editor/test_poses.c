@@ -60,7 +60,8 @@ static void assert_held(const char *name, const struct spline *spline, const dou
 TEST(edits_keep_what_knots_hold)
 {
     for (const struct edit *edit = edits; edit < edits + sizeof edits / sizeof *edits; edit++) {
-        const char *undo = edit->is_cut ? "key 2*Ctrl+Z" : "key Ctrl+Z", *redo = edit->is_cut ? "2*Ctrl+Y" : "Ctrl+Y";
+        const char *undo = edit->is_cut ? "key 2*Ctrl+Z" : "key Ctrl+Z",
+                   *redo = edit->is_cut ? "2*Ctrl+Shift+Z" : "Ctrl+Shift+Z";
         struct session session, *const s = &session;
         int kept = 0;
         session_open(s, HOLDING);

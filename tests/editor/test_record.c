@@ -87,7 +87,7 @@ TEST(recorded_is_what_was_seen)
         assert_near(joint_x(s, 0), live_base[i], 0.01);
         assert_near(joint_x(s, JOINTS) - joint_x(s, 0), live_tip[i], 0.1 * most);
     }
-    hands(s, "key Ctrl+Z; kept; label; key Ctrl+Y; is splines.# 3; key Shift+Left");
+    hands(s, "key Ctrl+Z; kept; label; key Ctrl+Shift+Z; is splines.# 3; key Shift+Left");
     perform(s, true, base, tip);
     assert_int_equal(s->document->spline_count, 3);
     assert_int_equal(document_tail(s->document, 0)->channel_count, 2);

@@ -81,7 +81,7 @@ static void open_failed(struct session *s)
     panel_answer(s, REQUEST_SAVE_AS, false, long_message);
 }
 
-static void open_poles(struct session *s) { editor_show_poles(s->editor); }
+static void open_poles(struct session *s) { editor_show_subject(s->editor, true, false); }
 
 static void open_message(struct session *s)
 {

@@ -56,7 +56,7 @@ TEST(one_click_remedies)
         assert_ptr_equal(hovered(s->editor), &thing_warning);
         assert_false(tooltip_is_shown(tooltip_of(s->editor)));
         hands(s,
-              "click warning(0); wait 1; warnings 0; %s; key Ctrl+Z; kept; warnings 1; label; key Ctrl+Y; "
+              "click warning(0); wait 1; warnings 0; %s; key Ctrl+Z; kept; warnings 1; label; key Ctrl+Shift+Z; "
               "warnings 0",
               warned[i].remedy);
         session_close(s);

@@ -390,11 +390,13 @@ static char *text_of(const struct document *document)
 static int run_session(struct session *session,
                        void (*seen)(struct session *session, const struct document *document))
 {
+    enum { EXAMPLE = -1 };
     static const struct {
         int key;
         unsigned mods;
-    } keys[STEPS] = {{KEY_ESCAPE, 0},  {KEY_RIGHT, 0},  {'I', 0}, {' ', 0},        {'Z', MOD_CTRL}, {'Y', MOD_CTRL},
-                     {'N', MOD_SHIFT}, {'3', MOD_CTRL}, {'F', 0}, {'C', MOD_CTRL}, {KEY_F1, 0},     {KEY_ESCAPE, 0}};
+    } keys[STEPS] = {
+        {KEY_ESCAPE, 0},  {KEY_RIGHT, 0}, {'I', 0}, {' ', 0},        {'Z', MOD_CTRL}, {'Z', MOD_CTRL | MOD_SHIFT},
+        {'N', MOD_SHIFT}, {EXAMPLE, 0},   {'F', 0}, {'C', MOD_CTRL}, {KEY_F1, 0},     {KEY_ESCAPE, 0}};
     struct error error = {0};
     struct blind blind;
     struct app *app = &blind.app;
@@ -410,7 +412,11 @@ static int run_session(struct session *session,
     for (int i = 0; !app->failed && i < STEPS; i++) {
         const struct event event = {
             .kind = EVENT_KEY, .key = keys[i].key, .mods = keys[i].mods, .action = ACTION_PRESS};
-        event_queue_push(&app->platform->queue, &event);
+        if (keys[i].key == EXAMPLE) {
+            blind_send_example(&blind, "figure 3");
+        } else {
+            event_queue_push(&app->platform->queue, &event);
+        }
         app_frame(app);
         *session->done = i + 1;
         if (seen) seen(session, app->work.document);

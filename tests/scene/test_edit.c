@@ -552,14 +552,12 @@ TEST(every_row_is_whole_and_described)
         assert_true(row->standard >= row->minimum && row->standard <= row->maximum);
         assert_true(row->fresh >= row->minimum && row->fresh <= row->maximum);
         assert_true(row->kind == PARAMETER_CHOICE || row->step > 0);
-        if (row->letter) assert_int_equal(parameter_of_letter(row->letter[0]), p);
         int words = 0;
         while (row->words[words]) assert_non_null(row->labels[words++]);
         assert_int_equal(words, row->kind == PARAMETER_CHOICE ? (int)row->maximum + 1 : 0);
         snprintf(quoted, sizeof quoted, "`%s`", parameter_key(p));
         if (!strstr(text, quoted)) fail_msg("docs/scene-format.md does not name %s", quoted);
     }
-    assert_int_equal(parameter_of_letter('?'), PARAMETER_COUNT);
     free(text);
 }
 

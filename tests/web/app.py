@@ -140,6 +140,13 @@ def starts(browser, url):
     page.close()
 
 
+def command(page, *words):
+    page.key('F3')
+    for word in words:
+        page.type(word)
+        page.key('Enter')
+
+
 def edits(browser, url):
     page = opened(browser, url)
     look(page)
@@ -153,7 +160,7 @@ def edits(browser, url):
     page.key('Ctrl+Z')
     told(page, 'a title without a star', lambda text: not text.startswith('*'))
     expect(scene(page) == start, 'undo brings the scene back')
-    page.key('Ctrl+Y')
+    page.key('Ctrl+Shift+Z')
     told(page, 'a star again', lambda text: text.startswith('*'))
     expect(scene(page) == moved, 'redo brings the change back')
     page.key('I')
@@ -271,7 +278,7 @@ def files(browser, url):
     until('the download of the scene', file.exists)
     expect(json.loads(file.read_text())['splines'] == saved['splines'], 'the scene that is saved is the one that is shown')
     told(page, "the scene's name", lambda text: text.startswith('untitled.json'))
-    page.key('Alt+N')
+    command(page, 'new')
     told(page, 'a new scene', lambda text: text == 'untitled — wiggly')
     until('words on the new scene', lambda: 'It is paused' in described(page) and 'breath' not in described(page))
     expect(len(scene(page)['splines'][0]['knots']) == 1, 'a new scene has one knot')
@@ -420,7 +427,7 @@ def characters(browser, url):
     look(page)
     page.call('Network.emulateNetworkConditions', offline=False, latency=1000, downloadThroughput=-1, uploadThroughput=-1)
     page.evaluate(HEAR)
-    page.key('Ctrl+8')
+    command(page, 'examples', 'dog')
     page.until('a word that it is fetched', "heard.includes('Fetching dog.glb …')")
     until('the dog', lambda: look(page) > 5000)
     frames(page)
@@ -568,14 +575,14 @@ def offline(browser, url):
         page.until('its cache', '''caches.keys().then(names => names.length && caches.open(names[0])).then(cache => cache && cache.keys())
             .then(files => files && files.some(file => file.url.endsWith('wiggly.wasm')))''')
         look(page)
-        page.key('Ctrl+8')
+        command(page, 'examples', 'dog')
         until('the dog', lambda: look(page) > 5000)
     reopened(page, server.url)
     look(page)
-    page.key('Ctrl+7')
+    command(page, 'examples', 'phases')
     page.until('a word that a character does not come', "/creature.glb could not/.test(document.getElementById('said').textContent)")
     until('the scene without it', lambda: look(page) > 5000)
-    page.key('Ctrl+8')
+    command(page, 'examples', 'dog')
     until('the dog, which was kept', lambda: look(page) > 5000)
     page.close()
 

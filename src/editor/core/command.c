@@ -8,7 +8,7 @@ const char *const about_titles[ABOUT_COUNT] = {
     [ABOUT_KNOTS] = "Knots",         [ABOUT_DRAG] = "While dragging", [ABOUT_SLOPES] = "Slopes and poses",
     [ABOUT_SPLINE] = "Splines",      [ABOUT_PLAYBACK] = "Playback",   [ABOUT_CURVES] = "Curves",
     [ABOUT_STAGE] = "Stage",         [ABOUT_PINS] = "Pins",           [ABOUT_INSPECTOR] = "Inspector",
-    [ABOUT_FILE] = "File and edits", [ABOUT_WINDOW] = "Window",       [ABOUT_SCENES] = "Scenes to try",
+    [ABOUT_FILE] = "File and edits", [ABOUT_WINDOW] = "Window",
 };
 
 static const char *const missing[] = {
@@ -121,6 +121,7 @@ bool command_is_browsers(int key, unsigned mods)
     const bool is_arrow = key == KEY_LEFT || key == KEY_RIGHT || key == KEY_UP || key == KEY_DOWN;
     if (key == KEY_F5 || key == KEY_F6) return true;
     if (mods == MOD_ALT) return is_arrow;
+    if (mods == MOD_CTRL && (key == KEY_PAGE_UP || key == KEY_PAGE_DOWN || key == 'N')) return true;
     if (mods == MOD_CTRL) return key == 'R' || key == 'L' || key == 'W' || key == 'T';
     return mods == (MOD_CTRL | MOD_SHIFT) && (key == 'R' || key == 'W' || key == 'T');
 }

@@ -21,7 +21,6 @@ enum about {
     ABOUT_INSPECTOR,
     ABOUT_FILE,
     ABOUT_WINDOW,
-    ABOUT_SCENES,
     ABOUT_COUNT,
     ABOUT_NOTHING = ABOUT_COUNT ///< not in F1
 };
@@ -35,7 +34,8 @@ enum place {
     ON_STAGE = 8,
     ON_PIN = 16,
     ON_INSPECTOR = 32,
-    IN_STAGE_MENU = 64 ///< only a right-click on the stage lists it
+    IN_STAGE_MENU = 64, ///< only a right-click on the stage lists it
+    IN_EXAMPLES = 128   ///< only the list of examples has it
 };
 
 /// What a command needs.
@@ -80,7 +80,7 @@ struct chord {
 };
 
 enum {
-    COMMAND_CHORDS = 5,
+    COMMAND_CHORDS = 4,
     COMMAND_SHOWN = 2, ///< in F1 and the palette; docs/keys.md lists all
     COMMAND_KEYS = 96  ///< bytes for their names
 };
@@ -111,7 +111,7 @@ bool command_runs(const struct command *command);
 const char *need_missing(const struct core *core, enum need need);
 /// Keys that a browser keeps for itself: reload, its address, tabs and history.
 bool command_is_browsers(int key, unsigned mods);
-/// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for neither. In a page, without the browser's own.
+/// Its first keys, "Del or Backspace", or its gesture; "" for neither. In a page, without the browser's own.
 void command_keys(const struct command *command, bool in_page, char text[COMMAND_KEYS]);
 /// A key's name, as "Esc", "PgUp", "←", or NULL.
 const char *command_key_name(int key);

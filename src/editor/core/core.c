@@ -52,7 +52,7 @@ void core_open(struct core *core)
     const struct character_rig *character = document_character(document, 0);
     const int phases = character ? character->phases : -1;
     core->view.on[SWITCH_PHASE_MAP] = phases >= 0;
-    core->view.shows_poles = false;
+    core->view.shows_poles = core->view.on[SWITCH_PHASE] = false;
     core->focus.characters = (struct character_view){.axis = phases >= 0 ? phases : 1};
 
     // Scenes that loop, have a clip or a description play. Auto-key is on if a body is animated.

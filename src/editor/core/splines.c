@@ -312,32 +312,18 @@ double core_fresh_limit(const struct spline *spline, enum parameter parameter)
     return is_high ? ceil(100 * (edge + room) - 1e-6) / 100 : floor(100 * (edge - room) + 1e-6) / 100;
 }
 
-/// Shows why a parameter has no effect now; false if it has one.
-static bool say_idle(struct core *core, const struct spline *spline, enum parameter parameter)
-{
-    const struct parameter_row *row = &parameter_rows[parameter];
-    if (parameter == PARAMETER_CALM && !spline_uses_calm(core->document, core->focus.active)) {
-        core_message(core, false, "Calm is for whole curves: drag the wind-up to its right end first.");
-        return true;
-    }
-    if (parameter == PARAMETER_CALM || row->modes >> spline_mode(spline) & 1) return false;
-    if (spline_mode(spline) == WIGGLY_CUBIC) {
-        core_message(core, false, "A cubic does not swing. Press M to change the kind.");
-    } else {
-        core_message(core, false, "Only a %s spline has a %s. Press M to change the kind.",
-                     row->modes & IN_COMPLEX ? "wiggly" : "spring", row->name);
-    }
-    return true;
-}
-
 void core_nudge_parameter(struct core *core, int direction)
 {
     const struct spline *spline = core_active_spline(core);
     if (core->input.held_key == 0) return;
     core->input.held_used = true;
     if (core->input.held_key == 'L') nudge_lag(core, 0.5 * direction);
-    const enum parameter parameter = parameter_of_letter(core->input.held_key);
-    if (!spline || parameter == PARAMETER_COUNT || say_idle(core, spline, parameter)) return;
+    const enum parameter parameter = core->input.held_key == 'F' ? PARAMETER_FREQUENCY : PARAMETER_DAMPING;
+    if (!spline || (core->input.held_key != 'F' && core->input.held_key != 'Z')) return;
+    if (spline_mode(spline) == WIGGLY_CUBIC) {
+        core_message(core, false, "A cubic does not swing. Press M to change the kind.");
+        return;
+    }
     const double step = parameter_rows[parameter].step * direction;
     const struct param *before = &spline->parameter[parameter];
     if (before->track >= 0) {
@@ -348,23 +334,19 @@ void core_nudge_parameter(struct core *core, int direction)
     }
     struct param param = *before;
     param.value = round((param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
-    double most = parameter_maximum(parameter, spline_mode(spline));
-    if (parameter_rows[parameter].usual > 0)
-        most = fmax(core_slider_end(core->document, spline, parameter), before->value);
+    const double most = fmax(core_slider_end(core->document, spline, parameter), before->value);
     param.value = fmin(fmax(param.value, parameter_rows[parameter].minimum), most);
     if (param.value == before->value) return;
     if (core_step(core, "Change parameter", core_merge_key(core, NUDGE_PARAMETER + parameter)))
         core_set_felt(core, core_limb(core), parameter, param.value, false, &core->step.error);
 }
 
-void core_cycle_choice(struct core *core, int parameter)
+void core_cycle_mode(struct core *core, int unused)
 {
-    const struct parameter_row *row = &parameter_rows[parameter];
     const struct spline *spline = core_active_spline(core);
-    if (!spline) return;
-    double next = spline->parameter[parameter].value + 1;
-    if (core_step(core, row->undo, 0))
-        core_set_parameter(core, core->focus.active, (enum parameter)parameter, next <= row->maximum ? next : 0);
+    (void)unused;
+    if (spline && core_step(core, parameter_rows[PARAMETER_MODE].undo, 0))
+        core_set_parameter(core, core->focus.active, PARAMETER_MODE, (spline_mode(spline) + 1) % (WIGGLY_CUBIC + 1));
 }
 
 void core_toggle_pose_to_pose(struct core *core, int unused)

@@ -45,10 +45,10 @@ const struct channel *core_active_channel(const struct core *core, int *rig, int
 double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
 /// Initial value of a limit: a little beyond the knots.
 double core_fresh_limit(const struct spline *spline, enum parameter parameter);
-/// Steps the parameter whose letter is held, or with L the lag.
+/// Steps the frequency while F is held, with Z the damping, with L the lag.
 void core_nudge_parameter(struct core *core, int direction);
-/// Goes to the next choice of a parameter, cyclically.
-void core_cycle_choice(struct core *core, int parameter);
+/// Goes to the next kind of spline, cyclically.
+void core_cycle_mode(struct core *core, int unused);
 
 /// Lets the active spline's motion settle at all of its knots, or if it does, at none.
 void core_toggle_pose_to_pose(struct core *core, int unused);

@@ -307,7 +307,7 @@ struct input {
     float pointer_x, pointer_y;
     bool finger; ///< is the pointer
     unsigned mods;
-    int held_key;   ///< F Z B C L K while held, else 0
+    int held_key;   ///< F Z L K while held, else 0
     bool held_used; ///< with an arrow
     bool space_down, space_used;
     enum paste paste; ///< until it comes

@@ -37,8 +37,8 @@ bool dialogs_event(struct dialogs *dialogs, const struct event *event);
 bool dialogs_are_asking(const struct dialogs *dialogs);
 /// Opens or closes the key overlay (F1).
 void dialogs_help(struct dialogs *dialogs);
-/// Opens or closes the command palette (F3).
-void dialogs_palette(struct dialogs *dialogs);
+/// Opens or closes the command palette (F3), with the rows of a place: 0, or IN_EXAMPLES.
+void dialogs_palette(struct dialogs *dialogs, unsigned at);
 /// Opens the menu of what can be done at the pointer. Typing goes on in the palette.
 void dialogs_menu(struct dialogs *dialogs);
 /// Takes the command chosen in the palette or menu; NULL: none.

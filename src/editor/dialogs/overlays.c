@@ -152,8 +152,8 @@ static struct page keys_page(const struct dialogs *dialogs, const struct command
     return page;
 }
 
-/// Finds the commands that match, and lays out the overlay that is open. For the palette those that can run now come first, of these files and
-/// examples last; for F1 all its rows are in the table's order.
+/// Finds the commands that match, and lays out the overlay that is open. For the palette those that can run now come first, of these files
+/// last; for F1 all its rows are in the table's order.
 static struct page lookup_page(const struct dialogs *dialogs, struct commands_found *found)
 {
     const struct core *core = dialogs->core;
@@ -166,10 +166,11 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
     for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = runs ? need_missing(core, need) : NULL;
     for (int i = 0; i < count; i++) {
         const struct command *command = &commands[i];
-        char keys[COMMAND_KEYS], text[160];
+        char keys[COMMAND_KEYS], text[256];
         fits[i] = FIT_NOT;
         if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
         const unsigned at = dialogs->lookup.at, places = at & ON_STAGE ? at | IN_STAGE_MENU : at;
+        if (runs && (command->at & IN_EXAMPLES) != (at & IN_EXAMPLES)) continue;
         if (menu && (!(command->at & places) || missing[command->needs])) continue;
         command_keys(command, core->app.in_page, keys); // its keys also find it
         snprintf(text, sizeof text, "%s %s", command->name, command->also ? command->also : "");
@@ -180,12 +181,11 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
 
     found->count = 0;
     for (enum fit fit = FIT_START; fit >= ui_filter_least(best); fit--) {
-        for (int order = 0; order < 6; order++) {
+        for (int order = 0; order < 4; order++) {
             for (int i = 0; i < count; i++) {
-                const enum about about = commands[i].about;
-                const int late = !runs ? 0 : about == ABOUT_SCENES ? 2 : about == ABOUT_FILE;
+                const int late = runs && commands[i].about == ABOUT_FILE;
                 const char *lacks = missing[commands[i].needs];
-                if (fits[i] != fit || (lacks ? 3 : 0) + late != order) continue;
+                if (fits[i] != fit || (lacks ? 2 : 0) + late != order) continue;
                 found->missing[found->count] = lacks;
                 found->list[found->count++] = &commands[i];
             }
@@ -228,7 +228,10 @@ void dialogs_help(struct dialogs *dialogs) { flip_here(dialogs, LOOKUP_KEYS); }
 
 void dialogs_menu(struct dialogs *dialogs) { flip_here(dialogs, LOOKUP_MENU); }
 
-void dialogs_palette(struct dialogs *dialogs) { flip_lookup(dialogs, (struct lookup){.kind = LOOKUP_PALETTE}); }
+void dialogs_palette(struct dialogs *dialogs, unsigned at)
+{
+    flip_lookup(dialogs, (struct lookup){.kind = LOOKUP_PALETTE, .at = at});
+}
 
 const struct command *dialogs_take_command(struct dialogs *dialogs)
 {
@@ -442,7 +445,8 @@ void lookup_show(const struct dialogs *dialogs)
 
     const struct rect field = page.field;
     if (!is_menu)
-        show_field(drawn, field, lookup->filter.typed, is_palette ? "Type what you want to do" : "Type to search");
+        show_field(drawn, field, lookup->filter.typed,
+                   is_palette && lookup->at != IN_EXAMPLES ? "Type what you want to do" : "Type to search");
     const struct rect body = page.body;
     if (is_palette) {
         struct rect row = {body.x + 10, body.y, body.w - 20, PALETTE_ROW};

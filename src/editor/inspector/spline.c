@@ -691,6 +691,9 @@ void inspector_advanced(struct inspector *in)
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
         if (shown[i] != PARAMETER_CALM || calm) inspector_parameter(in, shown[i]);
     }
+    static const struct row phase = {NAMED("phase", "phase curve"),
+                                     .hint = "Also draw the curve's imaginary part, a quarter of a swing behind it"};
+    inspector_toggle(in, ui_row(&in->ui, UI_ROW), &phase, &in->core->view.on[SWITCH_PHASE]);
 }
 
 /// A number and a switch for each limit; off, only the name.
