@@ -53,7 +53,7 @@ TEST(a_weight_is_the_limbs)
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct session session, *const s = &session;
         panel_open(s, limb_scene, 1280, 900);
-        show_more(s->editor, strstr(rows[i].steps, "settle") != NULL);
+        if (strstr(rows[i].steps, "settle")) unfold(s->editor, "section.advanced");
         hands(s, "keep; wait 1");
         hands(s, rows[i].steps, s->work.evaluation.curves[0].total[20]);
         for (int k = 0; k < 5; k++) {
@@ -109,8 +109,9 @@ WALK(calm_shows_where_it_acts, panel_open(s, tail_scene, 1280, 1700),
      "click section.advanced; finds calm; enter wind-up 12; lacks calm; click start.loop; finds calm")
 
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ). No sooner than with critical damping; then a second later.
-WALK(the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 900),
-     "keep; enter settle 2; sway.frequency 1 ~0; sway.damping 0.238394 ~1e-4; once; enter settle 0.01;"
+WALK(the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 1700),
+     "click section.advanced; keep; enter settle 2; sway.frequency 1 ~0; sway.damping 0.238394 ~1e-4; once; enter "
+     "settle 0.01;"
      "error settles in: expected 0.48; key Escape; carry settle 20 0; sway.damping 0.158929 ~2e-3;"
      "click mode.real; enter settle 1.5; sway.damping 0.3 ~0.0999")
 

@@ -253,24 +253,10 @@ static int joint_at(const struct angle_view *view, float x)
     return (int)fminf(fmaxf(joint, 0), (float)last);
 }
 
-static double get_joint(const struct inspector *in, int kind, bool kept, char text[64])
-{
-    (void)text;
-    return kept ? NAN : angles_of(in, kind, false)->value[in->joint[kind]];
-}
-
-static bool set_joint(struct inspector *in, int kind, double number, struct error *error)
-{
-    struct angles next = *angles_of(in, kind, false);
-    next.value[in->joint[kind]] = number;
-    return set_angles(in, (enum angle_kind)kind, &next, error);
-}
-
-/// One angle per joint: drawn by dragging, and the selected joint's number.
+/// One angle per joint, drawn by dragging; arrow keys change the selected one.
 static void build_each(struct inspector *in, struct angle_view *view)
 {
-    static const struct number_home home = {.get = get_joint, .set = set_joint};
-    struct number_row number = rows[view->kind];
+    const struct number_row *number = &rows[view->kind];
     struct ui *ui = &in->ui;
     int which;
     ui_hint(ui, view->box, view->handles->hint);
@@ -291,9 +277,9 @@ static void build_each(struct inspector *in, struct angle_view *view)
         in->joint[view->kind] = next < 0 ? 0 : next > last ? last : next;
         struct angles angles = *view->angles;
         char what[NAME];
-        snprintf(what, NAME, "%s.joint.%d", number.ui.name, view->selected);
-        angles.value[view->selected] += handle->step_y * number.ui.step;
-        if (handle->step_y != 0) change_angles(in, view->kind, UI_NUDGE, number.undo, what, &angles);
+        snprintf(what, NAME, "%s.joint.%d", number->ui.name, view->selected);
+        angles.value[view->selected] += handle->step_y * number->ui.step;
+        if (handle->step_y != 0) change_angles(in, view->kind, UI_NUDGE, number->undo, what, &angles);
     } else if (change == UI_DRAG) { // puts all joints between the last position of the pointer and this one on a line
         const int from = joint_at(view, in->drawn_x), to = joint_at(view, handle->x), way = to >= from ? 1 : -1;
         for (int n = from; n != to + way; n += way) {
@@ -305,18 +291,7 @@ static void build_each(struct inspector *in, struct angle_view *view)
         in->joint[view->kind] = to;
     }
     if (change != UI_NONE && change != UI_NUDGE)
-        change_angles(in, view->kind, change, number.undo, view->names[0], &in->drawn);
-
-    char name[NAME], label[NAME];
-    snprintf(name, NAME, "%s.joint", number.ui.name);
-    snprintf(label, NAME, "joint %d", in->joint[view->kind] + 1);
-    number.ui.name = name;
-    number.ui.label = label;
-    number.ui.unit = unit_of(in, (int)view->kind);
-    number.ui.hint = "Angle of the joint selected in the curve above";
-    number.ui.minimum = number.ui.maximum = 0; // no bar
-    number.ui.fallback = NAN;
-    inspector_number(in, &number, &home, (int)view->kind, ui_row(ui, UI_ROW));
+        change_angles(in, view->kind, change, number->undo, view->names[0], &in->drawn);
 }
 
 /// The curve of several angles.
@@ -355,16 +330,14 @@ static void build_curve(struct inspector *in, enum angle_kind kind, const struct
 
 float inspector_highest_curve(const struct inspector *in, enum angle_kind kind)
 {
-    const float heights[] = {[ANGLES_ONE] = 0, [ANGLES_RAMP] = HEIGHT, [ANGLES_EACH] = HEIGHT + UI_ROW};
     const struct document *document = in->core->document;
-    float highest = 0;
     for (int r = 0; in->core->view.on[SWITCH_MORE] && r < document->rig_count; r++) {
         int count;
         const struct channel *channels = rig_channels(document->rigs[r], &count);
         for (int c = 0; c < count; c++)
-            highest = fmaxf(highest, heights[kind == ANGLE_LAG ? channels[c].lag.form : channels[c].gain.form]);
+            if ((kind == ANGLE_LAG ? channels[c].lag.form : channels[c].gain.form) != ANGLES_ONE) return HEIGHT;
     }
-    return highest;
+    return 0;
 }
 
 void inspector_angles(struct inspector *in, enum angle_kind kind)

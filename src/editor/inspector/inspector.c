@@ -527,17 +527,18 @@ void inspector_more(struct inspector *in, int count, int most, const char *what)
     if (count > most) ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-enum { ROW_RATE, ROW_FIRST, ROW_LAST, ROW_SUBSTEPS, SCENE_ROWS };
+enum { ROW_RATE, ROW_FIRST, ROW_LAST, SCENE_ROWS };
 
 /// Rate and range ask before they move knots.
 static bool set_scene(struct inspector *in, int which, double number, struct error *error)
 {
     const struct document *document = in->core->document;
     const int whole = (int)lround(number);
+    (void)error;
     if (which == ROW_RATE) spline_list_fps(in->core, number);
     if (which == ROW_FIRST) spline_list_range(in->core, whole, document->last_frame);
     if (which == ROW_LAST) spline_list_range(in->core, document->first_frame, whole);
-    return which != ROW_SUBSTEPS || edit_substeps(in->core->document, whole, error);
+    return true;
 }
 
 static const struct number_row scene_rows[SCENE_ROWS] = {
@@ -552,9 +553,6 @@ static const struct number_row scene_rows[SCENE_ROWS] = {
                   .ui = {NAMED("scene.last", "last"),
                          .hint = "Last frame of the scene; in a loop it repeats the first",
                          TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1}},
-    [ROW_SUBSTEPS] = {WHOLE_AT(struct document, substeps), .undo = "Set substeps",
-                      .ui = {NAMED("scene.substeps", "substeps"), .hint = "Samples per frame, for motion blur",
-                             TYPED(1, SCENE_MAX_SUBSTEPS), .fallback = 1, .step = 1}},
 };
 
 void inspector_scene(struct inspector *in)
@@ -568,11 +566,6 @@ void inspector_scene(struct inspector *in)
         if (i == ROW_LAST) row.ui.highest = fmin(row.ui.highest, in->core->document->first_frame + longest);
         inspector_number(in, &row, &home, i, ui_row(&in->ui, UI_ROW));
     }
-    const struct rect r = inspector_labelled(in, "solver");
-    ui_hint(&in->ui, r,
-            "Band: all samples at once, as in the paper. Chain: from knot to knot, beyond 4096 samples or 300 "
-            "without a knot");
-    if (in->core->evaluation) ui_label(&in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
 }
 
 enum { HISTORY_ROWS = 9 };
@@ -851,11 +844,7 @@ void inspector_knot(struct inspector *in)
              .hint = sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)"}};
         const int pressed = build_buttons(in, rows, 3);
         if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
-    } else { // the spline's knots, and buttons that work without pointing
-        static const struct row rows[] = {
-            {NAMED("knot.insert", "Insert"), .hint = "Insert a knot on the curve at the playhead (I)"},
-            {NAMED("knot.next", "Next"), .hint = "Go to the next knot after the playhead (Alt+.)"},
-            {NAMED("knot.all", "All"), .hint = "Select all knots of the spline (Ctrl+A)"}};
+    } else { // the spline's knots
         const int knots = spline->knot_count;
         char frames[64] = "none", values[64] = "–";
         double range[2];
@@ -868,10 +857,6 @@ void inspector_knot(struct inspector *in)
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
         inspector_idle(in, "knots", frames);
         inspector_idle(in, "values", values);
-        const int pressed = build_buttons(in, rows, 3);
-        if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, HOLDS_VALUE);
-        if (pressed == 1) core_visit_neighbour(in->core, 1);
-        if (pressed == 2) core_select_all(in->core, false);
     }
     ui->y = fmaxf(ui->y, end);
 }

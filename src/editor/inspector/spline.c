@@ -425,11 +425,6 @@ void inspector_feel(struct inspector *in)
         }
     }
     char text[EVALUATION_SENTENCE];
-    if (in->core->view.on[SWITCH_MORE] && isnan(get_felt(in, SETTLE, false, text))) {
-        inspector_idle(in, "settles in", "–");
-    } else if (in->core->view.on[SWITCH_MORE]) {
-        build_number(in, SETTLE, shorter(in));
-    }
     const struct spline *swings = core_active_spline(in->core);
     const struct param *frequency = &swings->parameter[PARAMETER_FREQUENCY];
     if (!spline_uses(swings, PARAMETER_WIND_UP, false) || param_follows(frequency) || frequency->value == 0) {
@@ -690,6 +685,12 @@ void inspector_advanced(struct inspector *in)
     const bool calm = spline_uses_calm(in->core->document, in->core->focus.active);
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
         if (shown[i] != PARAMETER_CALM || calm) inspector_parameter(in, shown[i]);
+    }
+    char text[64];
+    if (isnan(get_felt(in, SETTLE, false, text))) {
+        inspector_idle(in, "settles in", "–");
+    } else {
+        build_number(in, SETTLE, shorter(in));
     }
     static const struct row phase = {NAMED("phase", "phase curve"),
                                      .hint = "Also draw the curve's imaginary part, a quarter of a swing behind it"};
