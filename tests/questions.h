@@ -32,6 +32,7 @@ static inline void tell_figures(struct editor *e, double fps, double solve_us)
     static struct figures figures;
     figures = (struct figures){.fps = fps, .solve_us = solve_us, .ui_scale = 1};
     e->core.app.figures = &figures;
+    e->core.app.stats = true;
 }
 static inline const struct tooltip *tooltip_of(const struct editor *e) { return &e->tooltip; }
 

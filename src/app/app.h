@@ -23,6 +23,7 @@ struct app_options {
     bool gl_debug;             ///< prints the OpenGL driver's messages; serious ones fail the run
     bool still;                ///< nothing plays before the user starts it
     bool welcome;              ///< shows the card for new users
+    bool stats;                ///< frame rate and solve time in the status line
     const char *log;           ///< timing log, CSV
     const char *screenshot;    ///< PNG of the last frame
     const char *frames_dir;    ///< a PNG for each frame

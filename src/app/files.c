@@ -598,6 +598,7 @@ void app_open_editor(struct app *app)
                                                           .format_count = exporting_format_count(),
                                                           .in_page = platform_in_page(),
                                                           .still = app->options->still,
+                                                          .stats = app->options->stats,
                                                           .figures = &app->figures});
     app->work.evaluation.solver = app->options->solver;
     ui_scale_fit(app);

@@ -37,6 +37,8 @@ int command_live(int argc, char **argv)
          OPTION_TEXT, &app.stage_scale, 0, 0},
         OPTION_SOLVER(&app.solver),
         {"--gl-debug", "print the OpenGL driver's messages; fail if it complains", OPTION_FLAG, &app.gl_debug, 0, 0},
+        {"--stats", "show frame rate, skipped frames and solve time in the status line", OPTION_FLAG, &app.stats, 0,
+         0},
         {"--log FILE.csv", "write a timing log, one row per frame", OPTION_OUTPUT, &app.log, 0, 0},
         {"--screenshot FILE.png", "save a picture of the last frame", OPTION_OUTPUT, &app.screenshot, 0, 0},
         {"--frames-dir DIR", "save a PNG of every frame", OPTION_TEXT, &app.frames_dir, 0, 0},

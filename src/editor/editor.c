@@ -374,6 +374,7 @@ void status_show(struct editor *editor)
         snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)now->stage_scale);
     snprintf(figures, sizeof figures, "%s%s%s%s%s", stage, stage[0] && (fps[0] || solve[0]) ? "  " : "", fps,
              fps[0] && solve[0] ? "  " : "", solve);
+    if (!core->app.stats) figures[0] = '\0';
 
     // The message is never cut: figures and name give way to it, figures first.
     const float mark = bar.x + bar.w - STATUS_MARGIN - font_width(FONT_LABEL, THEME_TEXT_NORMAL, unkept);

@@ -166,6 +166,15 @@ TAIL_TEST(test_steady_frames_allocate_nothing)
     }
 }
 
+/// Only who asks for them gets figures.
+TAIL_TEST(test_figures_are_shown_on_request)
+{
+    tell_figures(s->editor, 0, 75);
+    hands(s, "wait 1; shows solve 75 µs (band)");
+    s->editor->core.app.stats = false;
+    hands(s, "wait 1; hides solve");
+}
+
 /// The figures at the right must not cost a redraw every frame.
 TAIL_TEST(test_figures_change_twice_a_second)
 {

@@ -99,6 +99,7 @@ struct editor_app {
     int format_count;              ///< how many of `export_formats` are offered; 0: no export
     bool in_page;                  ///< it runs in a browser
     bool still;                    ///< no scene plays by itself
+    bool stats;                    ///< the status line has frame rate and solve time
     const struct figures *figures; ///< as they are now; NULL: none
 };
 
