@@ -164,11 +164,11 @@ validated() { # <what> <what it says of each file> <file>...
 mkdir own
 for scene in tail character $(thorough && echo follow figure7 compositing); do
     wiggly export "$scenes/$scene.json" -o own/$scene.glb --quiet
-    wiggly export "$scenes/$scene.json" -o own/$scene-cubic.gltf --keys cubic --signed --quiet
+    wiggly export "$scenes/$scene.json" -o own/$scene-signed.gltf --signed --quiet
 done
 validated "what wiggly makes" ", 0 infos, 0 hints" own/*
-wiggly export "$scenes/dog.json" -o dog-cubic.glb --keys cubic --quiet
-read=(dog-cubic.glb box.glb)
+wiggly export "$scenes/dog.json" -o dog.glb --quiet
+read=(dog.glb box.glb)
 if thorough; then
     for ending in glb gltf; do wiggly export "$scenes/dog.json" -o plain-dog.$ending --quiet; done
     read+=(plain-dog.glb plain-dog.gltf "$dog")

@@ -57,7 +57,7 @@ static struct export_options options_of(struct export_job *job)
 {
     const struct export_wish *wish = &job->request.wish;
     const char *path = job->request.path;
-    const bool all_clips = wish->all_clips && (export_format(path)->choices & CHOICE_CUBIC);
+    const bool all_clips = wish->all_clips && (export_format(path)->choices & CHOICE_CLIPS);
     const struct document *document = job->opened.document;
     const char *name = NULL;
     for (int i = 0; i < document->rig_count && wish->rig > 0; i++) {
@@ -73,7 +73,6 @@ static struct export_options options_of(struct export_job *job)
                                    .last = wish->last,
                                    .substeps = wish->keys,
                                    .is_signed = wish->is_signed,
-                                   .is_cubic = wish->is_cubic,
                                    .size = {wish->width, wish->height},
                                    .transparent = wish->transparent,
                                    .proceed = proceed,

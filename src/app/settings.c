@@ -183,7 +183,6 @@ static const struct {
     const char *key;
     size_t offset;
 } flags[] = {
-    {"export_tangents", offsetof(struct export_wish, is_cubic)},
     {"export_signed", offsetof(struct export_wish, is_signed)},
     {"export_all_clips", offsetof(struct export_wish, all_clips)},
     {"export_transparent", offsetof(struct export_wish, transparent)},

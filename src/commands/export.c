@@ -12,11 +12,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LINEAR = 1, CUBIC };
-
 struct job {
     const char *scene, *output, *frames;
-    int keys, theme; ///< index of the given word, from 1
+    int theme; ///< index of the given word, from 1
     bool quiet, paint;
     struct progress progress;
 };
@@ -49,8 +47,6 @@ int command_export(int argc, char **argv)
          &o.as_shown, 0, 0},
         {"--signed", "one morph target instead of two, with weights of either sign; Blender clamps them", OPTION_FLAG,
          &o.is_signed, 0, 0},
-        {"--keys linear|cubic", "interpolation; cubic adds tangents (linear; .glb, .gltf)", OPTION_WORD, &job.keys, 0,
-         0},
         {"--size WxH", "size of films and pictures (1280x720; .gif 640x360)", OPTION_SIZE, o.size, 16, 8192},
         OPTION_THEME(&job.theme, "colours of films and pictures (dark)"),
         {"--loops N", "films: play a looping scene N times, each time without its last frame", OPTION_INT, &o.loops,
@@ -83,7 +79,6 @@ int command_export(int argc, char **argv)
                              "--all-clips keeps names and frames of clips: give it without --clip and --frames");
     if (o.rate > 0 && o.substeps > 0)
         return options_wrong(&usage, "--fps and --substeps both set the number of keys: give one");
-    o.is_cubic = job.keys == CUBIC;
 
     process_catch_end();
     struct opened opened;

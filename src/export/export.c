@@ -20,25 +20,26 @@ enum {
 
 // In the order of the Export dialog.
 const struct export_format export_formats[EXPORT_FORMATS] = {
-    {".glb", "character and motion: Blender, three.js, game engines", MORPHS | CHOICE_CUBIC, MODEL,
+    {".glb", "character and motion: Blender, three.js, game engines", false, MORPHS | CHOICE_CLIPS, MODEL,
      .write = gltf_write, .is_binary = true},
-    {".gltf", "the same as readable text", MORPHS | CHOICE_CUBIC, MODEL, .write = gltf_write},
-    {".usda", "character and motion: USD, Houdini, Omniverse", MORPHS & ~CHOICE_CLIP, MODEL, .write = usda_write},
-    {".bvh", "joints and their motion: motion-capture tools", POINTS | CHOICE_JOINTS, FORM_JOINTS,
+    {".gltf", "the same as readable text", true, MORPHS | CHOICE_CLIPS, MODEL, .write = gltf_write},
+    {".usda", "character and motion: USD, Houdini, Omniverse", false, MORPHS & ~CHOICE_CLIP, MODEL,
+     .write = usda_write},
+    {".bvh", "joints and their motion: motion-capture tools", false, POINTS | CHOICE_JOINTS, FORM_JOINTS,
      .write = bvh_write},
-    {".csv", "every spline and angle as a table", CHOICE_KEYS | CHOICE_RIG, .write = csv_write},
-    {".pc2", "every vertex at every key: Blender's Mesh Cache", POINTS, FORM_POINTS, .write = points_write,
+    {".csv", "every spline and angle as a table", false, CHOICE_KEYS | CHOICE_RIG, .write = csv_write},
+    {".pc2", "every vertex at every key: Blender's Mesh Cache", true, POINTS, FORM_POINTS, .write = points_write,
      .motion = MOTION_PC2},
-    {".mdd", "the same for Maya, LightWave and others", POINTS, FORM_POINTS, .write = points_write,
+    {".mdd", "the same for Maya, LightWave and others", true, POINTS, FORM_POINTS, .write = points_write,
      .motion = MOTION_MDD},
-    {".npy", "the same as an array: Python", POINTS, FORM_POINTS, .write = points_write, .motion = MOTION_NPY},
-    {".gif", "a small film that repeats: messages, README files", CHOICE_SIZE, .film = FILM_GIF, .width = 640,
+    {".npy", "the same as an array: Python", true, POINTS, FORM_POINTS, .write = points_write, .motion = MOTION_NPY},
+    {".gif", "a small film that repeats: messages, README files", false, CHOICE_SIZE, .film = FILM_GIF, .width = 640,
      .height = 360, .most_rate = 50, .repeats = true},
-    {".mp4", "a film that plays everywhere", CHOICE_SIZE, .film = FILM_MP4, .width = 1280, .height = 720,
+    {".mp4", "a film that plays everywhere", false, CHOICE_SIZE, .film = FILM_MP4, .width = 1280, .height = 720,
      .most_rate = INFINITY, .is_even = true},
-    {".webm", "a film for web pages", CHOICE_SIZE | CHOICE_ALPHA, .film = FILM_WEBM, .width = 1280, .height = 720,
-     .most_rate = INFINITY, .is_even = true},
-    {".png", "one numbered picture per frame", CHOICE_SIZE | CHOICE_ALPHA, .film = FILM_PNG, .width = 1280,
+    {".webm", "a film for web pages", true, CHOICE_SIZE | CHOICE_ALPHA, .film = FILM_WEBM, .width = 1280,
+     .height = 720, .most_rate = INFINITY, .is_even = true},
+    {".png", "one numbered picture per frame", true, CHOICE_SIZE | CHOICE_ALPHA, .film = FILM_PNG, .width = 1280,
      .height = 720, .most_rate = INFINITY},
 };
 
@@ -218,7 +219,7 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
         export_endings(~0u, endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
-    if (options->all_clips && !(range.format->choices & CHOICE_CUBIC))
+    if (options->all_clips && !(range.format->choices & CHOICE_CLIPS))
         return fail(error, ERROR_USAGE, "%s: holds one clip: all clips need .glb or .gltf", path);
     const char *file = posing->document->path ? path_name(posing->document->path) : "wiggly";
     const char *dot = strrchr(file, '.');
@@ -254,27 +255,25 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
 
 // --- the rigs at the times that are exported
 
-double range_frame(const struct export_range *range, double key)
+double range_frame(const struct export_range *range, int key)
 {
-    const double whole = round(key);
-    if (!range->frames) return range->first + key * range->spacing;
-    return range->frames[(int)whole] + (key - whole) * range->spacing;
+    return range->frames ? range->frames[key] : range->first + key * range->spacing;
 }
 
-double range_seconds(const struct export_range *range, double key)
+double range_seconds(const struct export_range *range, int key)
 {
     return key * range->spacing / range->posing->document->fps;
 }
 
 /// In samples. A key that is meant to fall on a sample must not miss it by rounding: the last of a loop is the first.
-double range_position(const struct export_range *range, double key)
+double range_position(const struct export_range *range, int key)
 {
     const struct document *document = range->posing->document;
     const double position = (range_frame(range, key) - document->first_frame) * document->substeps;
     return fabs(position - round(position)) < 1e-6 ? round(position) : position;
 }
 
-bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error)
+bool range_pose(const struct export_range *range, int rig, int key, struct rig_pose *pose, struct error *error)
 {
     const int body = rig_body(range->posing->document, rig);
     if (rig_pose_body(range->posing, body, range_position(range, key), NULL, pose)) return true;
@@ -286,12 +285,6 @@ const float *range_root(const struct export_range *range, int rig, const struct 
     const bool is_placed =
         range->options->as_shown || (range->rig_count > 1 && !(range->format->choices & CHOICE_ONE));
     return is_placed && range->posing->document->rigs[rig]->kind == RIG_MODEL ? pose->model.root : NULL;
-}
-
-bool range_is_inside(const struct export_range *range, double key)
-{
-    const double position = range_position(range, key);
-    return position >= 0 && position <= document_samples(range->posing->document) - 1;
 }
 
 bool range_proceed(struct export_range *range, struct error *error)

@@ -12,7 +12,7 @@ enum export_choice {
     CHOICE_RIG = 2,    ///< one rig or all
     CHOICE_ONE = 4,    ///< one rig per file
     CHOICE_CLIP = 8,   ///< the animation's name
-    CHOICE_CUBIC = 16, ///< linear or cubic keys, one clip or all
+    CHOICE_CLIPS = 16, ///< one clip or all
     CHOICE_SIGNED = 32,
     CHOICE_SIZE = 64, ///< size of its pictures
     CHOICE_ALPHA = 128,
@@ -26,6 +26,7 @@ struct export_range;
 
 struct export_format {
     const char *ending, *use; ///< ".glb", and one line about its use
+    bool is_more;             ///< the Export dialog has it behind "More formats"
     unsigned choices;         ///< of enum export_choice
     unsigned holds; ///< the content it needs of a rig (FORM_MESH … in form.h); 0: any kind, or no rig at all
     bool is_binary; ///< the binary one of two containers
@@ -68,7 +69,6 @@ struct export_options {
     double rate;            ///< keys or pictures per second; 0: one per sample or, in films, per frame
     int substeps;           ///< keys per frame, or 0
     bool is_signed;         ///< allows negative morph weights, which halves the number of targets
-    bool is_cubic;          ///< keys with tangents (glTF)
     bool all_clips;         ///< applies chains to all clips of an imported character (glTF)
     bool as_shown;          ///< an imported character in the stage's size and place, not its file's
     // films and pictures (app/film.h)

@@ -1,4 +1,4 @@
-/// Rigs as other programs know them: a form for each kind of rig; collects the keys of one rig, and the slopes of its curves by differences.
+/// Rigs as other programs know them: a form for each kind of rig; collects the keys of one rig.
 #include "export/form.h"
 #include "base/need.h"
 #include "model/fox.h"
@@ -12,7 +12,7 @@
 // --- a tail: the fox, skinned to the tail's joints; and a chain, which moves its model
 
 /// Angles in degrees by which channels bend the joints of a tail or chain.
-static void tail_columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+static void tail_columns(const struct export_range *range, int rig, const struct rig_pose *pose, int key,
                          form_column *column, void *user)
 {
     const struct document *document = range->posing->document;
@@ -188,7 +188,7 @@ static void character_vertices(const struct form *form, const struct rig_pose *p
 }
 
 /// Each coordinate's weight, a complex number.
-static void character_columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+static void character_columns(const struct export_range *range, int rig, const struct rig_pose *pose, int key,
                               form_column *column, void *user)
 {
     const char *name = form_name(range->posing->document->rigs[rig]);
@@ -427,41 +427,10 @@ void form_close(struct form *form)
 
 // --- keys
 
-#define STEP (1.0 / 16) /* of differences, in keys */
-
-/// Poses one rig at any key.
-struct sampler {
-    const struct export_range *range;
-    const struct form *form;
-    int rig;
-};
-
-static bool sample(const struct sampler *from, const struct keys *keys, double key, float *row, struct error *error)
-{
-    struct rig_pose pose;
-    struct form_key values = {.rotation = (float(*)[4])(row + keys_rotation(0)),
-                              .scale = (float(*)[3])(row + keys_scale(keys, 0)),
-                              .offset = (float(*)[3])(row + keys_offset(keys, 0)),
-                              .weight = row + keys_weight(keys, 0)};
-    for (int j = 0; j < keys->joints; j++) {
-        for (int k = 0; k < 3; k++) values.scale[j][k] = 1;
-        memcpy(values.offset[j], from->form->joints[j].offset, sizeof values.offset[j]);
-    }
-    if (!range_pose(from->range, from->rig, key, &pose, error)) return false;
-    from->form->kind->key(from->form, &pose, &values);
-    memcpy(row, values.translation, sizeof values.translation);
-    return true;
-}
-
 void keys_turn_short_way(const float before[4], float q[4])
 {
     if (before[0] * q[0] + before[1] * q[1] + before[2] * q[2] + before[3] * q[3] >= 0) return;
     for (int k = 0; k < 4; k++) q[k] = -q[k];
-}
-
-static void turn_short_way(const struct keys *keys, const float *before, float *row)
-{
-    for (int j = 0; j < keys->joints; j++) keys_turn_short_way(before + keys_rotation(j), row + keys_rotation(j));
 }
 
 void keys_close_loop(float *rows, int width, int count)
@@ -475,41 +444,30 @@ void keys_close_loop(float *rows, int width, int count)
 
 bool keys_collect(struct export_range *range, int rig, struct form *form, struct keys *keys, struct error *error)
 {
-    const struct sampler from = {range, form, rig};
     const size_t count = (size_t)range->key_count,
                  width = 3 + 10 * (size_t)form->joint_count + (size_t)form->target_count;
-    const bool tangents = range->options->is_cubic && (range->format->choices & CHOICE_CUBIC) && range->key_count > 1;
     *keys = (struct keys){.count = range->key_count, .width = (int)width, .joints = form->joint_count};
-    if (!need_has_room((2 * count + 1) * width * sizeof *keys->rows)) return fail_no_memory(error, form->name);
-    keys->rows = pool_take(&form->pool, (count + 1) * width, sizeof *keys->rows);
-    if (tangents) keys->slopes = pool_take(&form->pool, count * width, sizeof *keys->slopes);
+    if (!need_has_room(count * width * sizeof *keys->rows)) return fail_no_memory(error, form->name);
+    keys->rows = pool_take(&form->pool, count * width, sizeof *keys->rows);
     for (int k = 0; k < keys->count; k++) {
         float *row = keys->rows + (size_t)k * width;
-        if (!sample(&from, keys, k, row, error) || !range_proceed(range, error)) return false;
-        if (k > 0) turn_short_way(keys, row - width, row);
+        struct rig_pose pose;
+        struct form_key values = {.rotation = (float(*)[4])(row + keys_rotation(0)),
+                                  .scale = (float(*)[3])(row + keys_scale(keys, 0)),
+                                  .offset = (float(*)[3])(row + keys_offset(keys, 0)),
+                                  .weight = row + keys_weight(keys, 0)};
+        for (int j = 0; j < keys->joints; j++) {
+            for (int i = 0; i < 3; i++) values.scale[j][i] = 1;
+            memcpy(values.offset[j], form->joints[j].offset, sizeof values.offset[j]);
+        }
+        if (!range_pose(range, rig, k, &pose, error)) return false;
+        form->kind->key(form, &pose, &values);
+        memcpy(row, values.translation, sizeof values.translation);
+        if (!range_proceed(range, error)) return false;
+        for (int j = 0; k > 0 && j < keys->joints; j++)
+            keys_turn_short_way(row - width + keys_rotation(j), row + keys_rotation(j));
         keys->travels = keys->travels || memcmp(row, keys->rows, 3 * sizeof *row) != 0;
     }
     keys_close_loop(keys->rows, keys->width, keys->count);
-
-    // slope = Σ factor · row(key + offset) / seconds: central; one-sided at the ends of the document
-    static const double ahead[3] = {0, STEP, 2 * STEP}, of_ahead[3] = {-1.5, 2, -0.5};
-    static const double behind[3] = {0, -STEP, -2 * STEP}, of_behind[3] = {1.5, -2, 0.5};
-    static const double around[3] = {-STEP, 0, STEP}, of_around[3] = {-0.5, 0, 0.5};
-    const double seconds = range_seconds(range, STEP);
-    float *scratch = keys->rows + count * width;
-    const bool loops = memcmp(keys->rows, keys_at(keys, keys->count - 1, 0), width * sizeof *keys->rows) == 0;
-    for (int k = 0; keys->slopes && k < keys->count; k++) {
-        const bool begins = !loops && !range_is_inside(range, k - STEP);
-        const bool ends = !loops && !begins && !range_is_inside(range, k + STEP);
-        const double *offset = begins ? ahead : ends ? behind : around;
-        const double *factor = begins ? of_ahead : ends ? of_behind : of_around;
-        float *slope = keys->slopes + (size_t)k * width;
-        for (int d = 0; d < 3; d++) {
-            if (factor[d] == 0) continue;
-            if (!sample(&from, keys, k + offset[d], scratch, error)) return false;
-            turn_short_way(keys, keys_at(keys, k, 0), scratch);
-            for (size_t i = 0; i < width; i++) slope[i] += (float)(factor[d] / seconds * (double)scratch[i]);
-        }
-    }
     return true;
 }

@@ -67,22 +67,19 @@ bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error
 bool range_choose_keys(struct export_range *range, struct export_report *report, struct error *error);
 
 /// A key's frame, and its time in seconds from the first.
-double range_frame(const struct export_range *range, double key);
-double range_seconds(const struct export_range *range, double key);
+double range_frame(const struct export_range *range, int key);
+double range_seconds(const struct export_range *range, int key);
 
-/// Poses a rig (for a chain its model) at a key, or between keys. Outside the document loops continue and everything else stands still.
+/// Poses a rig (for a chain its model) at a key. Outside the document loops continue and everything else stands still.
 /// Returns false with an error message if the model is missing.
-bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error);
+bool range_pose(const struct export_range *range, int rig, int key, struct rig_pose *pose, struct error *error);
 
 /// The matrix that places an imported character on the stage, if the file is to have it there; NULL: the character stays where its own file
 /// has it. Of all other rigs NULL: their forms are in the stage's space.
 const float *range_root(const struct export_range *range, int rig, const struct rig_pose *pose);
 
 /// A key's position in the document, samples.
-double range_position(const struct export_range *range, double key);
-
-/// Whether a key's time is within the document.
-bool range_is_inside(const struct export_range *range, double key);
+double range_position(const struct export_range *range, int key);
 
 /// Counts a key of a rig as done. Returns false with an error message if the export is to stop.
 bool range_proceed(struct export_range *range, struct error *error);
@@ -149,7 +146,7 @@ struct form_kind {
     /// Vertex positions as on the stage.
     void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
     /// Numbers that move the rig at a key, always the same columns in the same order. NULL: none.
-    void (*columns)(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+    void (*columns)(const struct export_range *range, int rig, const struct rig_pose *pose, int key,
                     form_column *column, void *user);
 };
 
@@ -191,8 +188,7 @@ struct model_body {
 struct keys {
     int count, width, joints;
     float *rows;
-    float *slopes; ///< change per second at the keys; NULL unless requested and supported
-    bool travels;  ///< the translation changes
+    bool travels; ///< the translation changes
 };
 
 // Columns of a row.

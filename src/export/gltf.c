@@ -75,31 +75,27 @@ static const struct {
              {"scale", ELEMENTS_KEY_VECTORS},
              {"weights", ELEMENTS_KEYS}};
 
-/// Adds a sampler and returns its number: `width` numbers per key, `stride` between keys, and slopes per second (NULL: linear between keys).
-static json_int_t add_sampler(struct gltf_motion *motion, enum gltf_path path, const float *values,
-                              const float *slopes, int width, int stride)
+/// Adds a sampler and returns its number: `width` numbers per key, `stride` between keys, linear between them.
+static json_int_t add_sampler(struct gltf_motion *motion, enum gltf_path path, const float *values, int width,
+                              int stride)
 {
-    const size_t size = (size_t)width * sizeof *values, count = (size_t)motion->key_count * (slopes ? 3 : 1);
+    const size_t size = (size_t)width * sizeof *values, count = (size_t)motion->key_count;
     float *const keys = need(count, size), *at = keys;
-    for (size_t from = 0; at < keys + count * (size_t)width; from += (size_t)stride) {
-        if (slopes) at = mempcpy(at, slopes + from, size); // in-tangent, value, out-tangent
+    for (size_t from = 0; at < keys + count * (size_t)width; from += (size_t)stride)
         at = mempcpy(at, values + from, size);
-        if (slopes) at = mempcpy(at, slopes + from, size);
-    }
     const json_int_t output = gltf_file_add(motion->file, paths[path].elements, keys,
                                             count * (path == GLTF_WEIGHTS ? (size_t)width : 1), false);
     free(keys);
-    return gltf_append(motion->file, motion->samplers,
-                       json_pack("{s:I, s:I, s:s}", "input", motion->times, "output", output, "interpolation",
-                                 slopes ? "CUBICSPLINE" : "LINEAR"));
+    return gltf_append(
+        motion->file, motion->samplers,
+        json_pack("{s:I, s:I, s:s}", "input", motion->times, "output", output, "interpolation", "LINEAR"));
 }
 
-/// Adds a sampler for a column of a rig's keys, with tangents if present, and returns its number.
+/// Adds a sampler for a column of a rig's keys, and returns its number.
 static json_int_t add_column_sampler(struct gltf_motion *motion, enum gltf_path path, const struct keys *keys,
                                      int column, int width)
 {
-    return add_sampler(motion, path, keys_at(keys, 0, column), keys->slopes ? keys->slopes + column : NULL, width,
-                       keys->width);
+    return add_sampler(motion, path, keys_at(keys, 0, column), width, keys->width);
 }
 
 /// Adds a channel that moves a node by a sampler.
@@ -216,18 +212,15 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     const int width = targets.count;
     const size_t count = (size_t)width * (size_t)keys.count;
     float *values = pool_take(&form.pool, count, sizeof *values);
-    float *slopes = keys.slopes ? pool_take(&form.pool, count, sizeof *slopes) : NULL;
     for (int i = 0; i < width * keys.count; i++) {
         const struct file_target *target = &targets.list[i % width];
         const int column = keys_weight(&keys, target->source);
         const float weight = *keys_at(&keys, i / width, column) / target->scale;
         values[i] = targets.clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
-        if (!slopes || (targets.clamped && weight <= 0)) continue;
-        slopes[i] = keys.slopes[(size_t)(i / width) * (size_t)keys.width + (size_t)column] / target->scale;
     }
     if (width > 0)
         add_channel(&scene->motion, mesh_node, GLTF_WEIGHTS,
-                    add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
+                    add_sampler(&scene->motion, GLTF_WEIGHTS, values, width, width));
     scene->joints += form.joint_count - form.first_bone;
     scene->targets += targets.count;
     form_close(&form);
@@ -606,12 +599,7 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
 
     // The keys turn the bones of chains, in the channels that the clip has for them, or new ones.
     for (int j = 0; j < form->joint_count; j++) {
-        struct keys own = keys;
-        for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
-            const struct gltf_channel *of = &body->clip->channels[c];
-            if (of->node == body->node[j] && of->interpolation == GLTF_STEP) own.slopes = NULL; // it jumps
-        }
-        const json_int_t sampler = add_column_sampler(&motion, GLTF_ROTATION, &own, keys_rotation(j), 4);
+        const json_int_t sampler = add_column_sampler(&motion, GLTF_ROTATION, &keys, keys_rotation(j), 4);
         bool found = false;
         json_array_foreach(motion.channels, i, channel)
         {

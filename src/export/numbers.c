@@ -33,7 +33,7 @@ static void write_column(void *user, double value, const char *format, ...)
     free(name);
 }
 
-static bool write_row(struct export_range *range, double key, struct row *row, struct error *error)
+static bool write_row(struct export_range *range, int key, struct row *row, struct error *error)
 {
     struct rig_pose pose;
     const struct document *document = range->posing->document;

@@ -461,7 +461,6 @@ static const struct {
     {2, "export s.json -o x.fbx", ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .gif, .mp4, .webm or .png"},
     {2, "export s.json -o x.glb --frames 24", "--frames"},
     {2, "export s.json -o x.glb --fps 24 --substeps 2", "--substeps"},
-    {2, "export s.json -o x.glb --keys square", "--keys"},
     {2, "export dog.json --all-clips --frames 1:9 -o x.glb", "--all-clips"},
     {2, "export s.json -o x.mp4 --transparent", ".webm and .png have"},
     {2, "export s.json -o %d-%d.png", "walk-%04d.png"},

@@ -234,7 +234,7 @@ FOLDER_TEST(files_and_the_last_export_are_remembered)
 {
     struct blind b;
     struct dialog_recent files[DIALOG_MAX_RECENT];
-    struct request request = {.wish = {.is_cubic = true, .keys = 3, .width = 640, .height = 360}};
+    struct request request = {.wish = {.is_signed = true, .keys = 3, .width = 640, .height = 360}};
     struct export_memory memory;
     start(&b);
     personal_note_file(&b.app, folder_file("one.json", ""));
@@ -251,7 +251,7 @@ FOLDER_TEST(files_and_the_last_export_are_remembered)
     export_memory_read(settings, "", &memory);
     settings_free(settings);
     assert_string_equal(memory.path, request.path);
-    assert_true(memory.wish.is_cubic && memory.wish.keys == 3);
+    assert_true(memory.wish.is_signed && memory.wish.keys == 3);
     assert_true(memory.wish.width == 640 && memory.wish.height == 360);
     assert_false(said_error(b.app.work.editor));
     assert_int_equal(rename(folder_path("wiggly"), folder_path("was")), 0);

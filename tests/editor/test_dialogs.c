@@ -292,8 +292,9 @@ TEST(test_what_enter_writes)
 
 WALK(test_the_ending_is_the_format, open_export(s, scene, "walk.json", 1280, 720),
      "type take.csv; is export.ending .csv; hides clip;" // over the selected name
-     "key Down; is export.path take.pc2;"
-     "tap .mp4; shows Write take.mp4;"
+     "key Down; is export.path take.gif; hides .pc2; type take.npy; wait; shows .npy; key Down;"
+     "is export.path take.gif; key Up; is export.path take.csv; tap More formats; shows .pc2; key Up;"
+     "is export.path take.bvh; tap .mp4; shows Write take.mp4;"
      "shows 49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
      "tap take.mp4; type 2; shows Write take.mp42.mp4") // back in the name, where typing goes on
 
@@ -321,7 +322,7 @@ EXPORT_TEST(test_choices_are_asked_for)
 /// A file that holds one rig is offered no other choice than one. Pictures have a size. Esc belongs to a number while it is typed.
 EXPORT_TEST(test_choices_of_formats)
 {
-    hands(s, "tap .pc2; hides all rigs; tap fox; tap cat; shows fox; tap .gif; shows 640");
+    hands(s, "tap More formats; tap .pc2; hides all rigs; tap fox; tap cat; shows fox; tap .gif; shows 640");
     fill(s, "size", 120, "320");
     hands(s, "key Enter; tap Write walk.gif");
     const struct export_wish wish = exported(s).wish;
@@ -360,7 +361,7 @@ SESSION_TEST(
                 "'dog', 'from': 'c', 'to': 'd', 'channels': [{'spline': 'sway'}]}]}",
                 "dog.json", 1280, 720))
 {
-    hands(s, "tap .pc2; hides brush; hides all clips; tap .bvh; hides brush; hides all clips; tap .glb");
+    hands(s, "tap More formats; tap .pc2; hides brush; hides all clips; tap .bvh; hides brush; hides all clips; tap .glb");
     const struct draw_command *label = shown_text(s->editor, "all clips");
     assert_non_null(label);
     session_move(s, label->x - 20, label->y - 4);
@@ -375,7 +376,8 @@ SESSION_TEST(test_pictures_of_a_loop,
                          "[{'frame': 0, 'value': 1}]}]}",
                          "walk.json", 1280, 720))
 {
-    hands(s, "tap .png; shows 121 pictures, 60 a second. ↑ ↓ choose the format, Tab goes to the choices.;"
+    hands(s, "tap More formats; tap .png; shows 121 pictures, 60 a second. ↑ ↓ choose the format, Tab goes to the "
+             "choices.;"
              "tap .gif; shows 100 pictures, 50 a second. ↑ ↓ choose the format, Tab goes to the choices.");
 }
 

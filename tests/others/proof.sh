@@ -62,7 +62,7 @@ done
 clips="Walk Trot Idle"
 "$WIGGLY" rig assets/models/dog.glb --chain tail_1 --all-clips -o "$scratch/packed.glb" >"$scratch/rig" 2>&1 || ok "all clips of the dog" 1
 for clip in $clips; do "$WIGGLY" rig assets/models/dog.glb --chain tail_1 --clip "$clip" -o "$scratch/packed-$clip.pc2" >"$scratch/rig"; done
-export_to dog turned.gltf --substeps 1 --keys cubic
+export_to dog turned.gltf --substeps 1
 cp "$scratch/dog-dog.pc2" "$scratch/turned-dog.pc2"
 for scene in tail follow dog small; do export_to $scene $scene.bvh --substeps 1; done
 

@@ -46,7 +46,7 @@ struct export_wish {
     int width, height; ///< of pictures; 0: the format's default
     unsigned rig;      ///< its id; 0: all
     char clip[256];    ///< of the animation; "": the scene's
-    bool is_cubic, is_signed, all_clips, transparent;
+    bool is_signed, all_clips, transparent;
 };
 
 struct request {

@@ -201,6 +201,11 @@ static int format_by_ending(const struct editor_app *app, const char *path)
     return format && format - export_formats < app->format_count ? (int)(format - export_formats) : -1;
 }
 
+static bool is_listed(const struct exporting *exporting, int format)
+{
+    return exporting->more || !export_formats[format].is_more || format == exporting->format;
+}
+
 static const struct export_format *format_of(const struct dialogs *dialogs)
 {
     return &export_formats[dialogs->exporting.format];
@@ -266,6 +271,7 @@ void dialogs_export(struct dialogs *dialogs)
     }
     exporting->serial = core->serial;
     exporting->typed = 0;
+    exporting->more = false;
     struct export_wish *wish = &memory->wish;
     if (!wish->part || wish->first < document->first_frame || wish->last > document->last_frame) {
         wish->part = false;
@@ -313,17 +319,17 @@ static bool export_key(struct dialogs *dialogs, int key)
 {
     const struct ui *ui = &dialogs->dialog.ui;
     const bool in_text = ui->focus == ui_id(ui, path_field) || ui->focus == ui_id(ui, clip_field);
-    const int format = dialogs->exporting.format, last = dialogs->dialog.app->format_count - 1;
+    const int count = dialogs->dialog.app->format_count, way = key == KEY_UP ? -1 : 1;
     if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
         stop(dialogs);
     } else if (is_running(&dialogs->dialog)) {
         return key != KEY_ENTER && key != KEY_SPACE; // Enter and Space press the button
     } else if (key == KEY_ENTER && in_text) {
         confirm_export(dialogs);
-    } else if (key == KEY_UP && in_text) {
-        choose_format(dialogs, format > 0 ? format - 1 : 0);
-    } else if (key == KEY_DOWN && in_text) {
-        choose_format(dialogs, format < last ? format + 1 : last);
+    } else if ((key == KEY_UP || key == KEY_DOWN) && in_text) {
+        int next = dialogs->exporting.format + way;
+        while (next >= 0 && next < count && !is_listed(&dialogs->exporting, next)) next += way;
+        if (next >= 0 && next < count) choose_format(dialogs, next);
     } else {
         return false;
     }
@@ -488,8 +494,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
 
     struct rect *row = &rows[2];
     const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
-    if (format->choices & CHOICE_CUBIC) build_toggle(ui, row, "export.cubic", "keys with tangents", &wish->is_cubic);
-    if ((format->choices & CHOICE_CUBIC) && document_find_rig(document, RIG_CHAIN, 0) >= 0)
+    if ((format->choices & CHOICE_CLIPS) && document_find_rig(document, RIG_CHAIN, 0) >= 0)
         build_toggle(ui, row, "export.clips", "all clips", &wish->all_clips);
     if ((format->choices & CHOICE_SIGNED) && morphs)
         build_toggle(ui, row, "export.signed", "signed morph targets", &wish->is_signed);
@@ -557,24 +562,33 @@ static void export_build(struct dialogs *dialogs)
             if (format >= 0) exporting->format = format;
         }
         ui_space(ui, 8);
-        const int fitting = (int)((core->view.layout.window.h - FRAME_HEIGHT) / UI_ROW), most = app->format_count;
+        int most = !exporting->more, place = 0; // rows of the list, the chosen one's
+        for (int f = 0; f < app->format_count; f++) {
+            most += is_listed(exporting, f);
+            place += f < exporting->format && is_listed(exporting, f);
+        }
+        const int fitting = (int)((core->view.layout.window.h - FRAME_HEIGHT) / UI_ROW);
         const int rows = fitting < LEAST_ROWS ? LEAST_ROWS : fitting > most ? most : fitting;
-        const int chosen = exporting->format;
         const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
         int taken = -1;
         ui_list_fit(&exporting->formats, view.h, (float)most * UI_ROW);
         if (ui->focus == ui_id(ui, path_field)) // shows the format being typed
-            ui_list_show(&exporting->formats, (float)chosen * UI_ROW, UI_ROW);
+            ui_list_show(&exporting->formats, (float)place * UI_ROW, UI_ROW);
         ui_list_begin(ui, &exporting->formats, view);
-        for (int f = 0; f < most; f++) {
+        for (int f = 0; f < app->format_count; f++) {
+            if (!is_listed(exporting, f)) continue;
             char name[32];
             const struct rect r = ui_row(ui, UI_ROW);
             const float left = r.x + 6 + ENDING_WIDTH;
             snprintf(name, sizeof name, "export%s", export_formats[f].ending);
-            if (ui_list_row(ui, r, name, "", 0, f == chosen)) taken = f;
+            if (ui_list_row(ui, r, name, "", 0, f == exporting->format)) taken = f;
             ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, export_formats[f].ending, theme()->text);
             ui_label(ui, (struct rect){left, r.y, r.w - 12 - ENDING_WIDTH, r.h}, export_formats[f].use,
                      theme()->text_dim);
+        }
+        if (!exporting->more && ui_list_row(ui, ui_row(ui, UI_ROW), "export.more", "More formats", 0, false)) {
+            exporting->more = true;
+            ui->focus = ui_id(ui, path_field); // where arrows choose
         }
         ui_list_end(ui);
         if (taken >= 0) choose_format(dialogs, taken);

@@ -70,6 +70,7 @@ struct exporting {
     int format;                  ///< index of the format: by the path's extension, else the last one used
     uint32_t typed;              ///< the field that `ui.text` holds; 0: none
     struct ui_list formats;      ///< the list of them
+    bool more;                   ///< with all of them
 };
 
 /// The last pressed keys, as shown to an audience.
