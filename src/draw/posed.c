@@ -180,35 +180,31 @@ static void dress(struct posed *mesh, const struct looks *looks)
 }
 
 /// The triangles of a material; −1: those with none of the first `materials`.
-static void add_material(struct posed *mesh, const struct figure *figure, bool coarse, int material, int materials)
+static void add_material(struct posed *mesh, const struct figure *figure, int material, int materials)
 {
     const struct character *c = &figure->character;
-    const uint32_t *indices = coarse ? figure->coarse : c->indices;
-    const int count = coarse ? figure->coarse_count : c->index_count;
     struct posed_part *part = &mesh->parts[mesh->part_count];
     *part = (struct posed_part){.first = mesh->index_count, .material = material};
-    for (int i = 0; i < count; i += 3) {
-        const uint32_t of =
-            materials > 0 ? c->looks.material[coarse ? figure->coarse_from[i / 3] : (uint32_t)i / 3] : 0;
+    for (int i = 0; i < c->index_count; i += 3) {
+        const uint32_t of = materials > 0 ? c->looks.material[i / 3] : 0;
         if ((of < (uint32_t)materials ? (int)of : -1) != material) continue;
-        memcpy(mesh->indices + mesh->index_count, indices + i, 3 * sizeof *indices);
+        memcpy(mesh->indices + mesh->index_count, c->indices + i, 3 * sizeof *c->indices);
         mesh->index_count += 3;
     }
     part->end = mesh->index_count;
     mesh->part_count += part->end > part->first;
 }
 
-void posed_from_figure(struct posed *mesh, const struct figure *figure, bool coarse)
+void posed_from_figure(struct posed *mesh, const struct figure *figure)
 {
     const struct character *c = &figure->character;
-    const int count = coarse ? figure->coarse_count : c->index_count;
     const int materials = looks_show(&c->looks) ? c->looks.material_count : 0;
-    allocate(mesh, (size_t)c->vertex_count, (size_t)count, (size_t)materials + 1);
+    allocate(mesh, (size_t)c->vertex_count, (size_t)c->index_count, (size_t)materials + 1);
     mesh->vertex_count = c->vertex_count;
     memcpy(mesh->place, c->position, (size_t)c->vertex_count * sizeof *mesh->place);
     for (int v = 0; v < c->vertex_count; v++) color_vertex(figure, -1, 0, v, &mesh->looks[v]);
-    for (int m = 0; m < materials; m++) add_material(mesh, figure, coarse, m, materials);
-    add_material(mesh, figure, coarse, -1, materials);
+    for (int m = 0; m < materials; m++) add_material(mesh, figure, m, materials);
+    add_material(mesh, figure, -1, materials);
     find_neighbours(mesh, 0);
     bool open = false; // then its back can be seen, as a flag's
     for (int i = 0; i < mesh->index_count; i++) open = open || mesh->neighbours[i] == NEIGHBOUR_NONE;

@@ -49,8 +49,8 @@ struct posed {
 
 /// The meshes of all nodes. Empty if they have too many triangles: a small file can claim any number.
 void posed_from_gltf(struct posed *mesh, const struct gltf *gltf);
-/// The fine or coarse triangles, sorted by material unless materials are hidden.
-void posed_from_figure(struct posed *mesh, const struct figure *figure, bool coarse);
+/// The triangles, sorted by material unless materials are hidden.
+void posed_from_figure(struct posed *mesh, const struct figure *figure);
 void posed_free(struct posed *mesh);
 
 /// These move all vertices and mark the triangles that face the eye. They allocate nothing.

@@ -270,7 +270,7 @@ enum {
 
 static const float PHASE_LINE = 1.25f; ///< logical pixels
 
-enum mesh_kind { MESH_NONE, MESH_MODEL, MESH_FINE, MESH_COARSE };
+enum mesh_kind { MESH_NONE, MESH_MODEL, MESH_FIGURE };
 
 /// A cached mesh.
 struct kept {
@@ -339,13 +339,12 @@ static long add_character(struct stage_renderer *stage, const struct stage_chara
 {
     const struct figure *figure = shown->figure;
     const struct looks *looks = &figure->character.looks;
-    const enum mesh_kind kind = shown->coarse ? MESH_COARSE : MESH_FINE;
-    struct kept *kept = find_mesh(stage, kind, figure->id);
+    struct kept *kept = find_mesh(stage, MESH_FIGURE, figure->id);
     struct posed *mesh = &kept->mesh;
     const bool is_new = kept->kind == MESH_NONE;
     long bytes = 0;
     if (is_new) {
-        posed_from_figure(mesh, figure, shown->coarse);
+        posed_from_figure(mesh, figure);
         bytes += upload_mesh(mesh);
         mesh->picture_count = looks->material_count;
         mesh->pictures = pool_take(&mesh->pool, (size_t)looks->material_count, sizeof *mesh->pictures);
@@ -374,7 +373,7 @@ static long add_character(struct stage_renderer *stage, const struct stage_chara
         bytes += (long)size;
     }
     posed_pose_figure(mesh, shown, eye);
-    show_mesh(stage, kept, kind, figure->id,
+    show_mesh(stage, kept, MESH_FIGURE, figure->id,
               (struct shown){.shade = {shown->position[1], 0.3f * (figure->hi[1] - figure->lo[1])}});
     return bytes + upload_places(mesh);
 }

@@ -1,4 +1,4 @@
-/// A character prepared for drawing: derivatives for its normals, a coarser mesh for scenes of several, its ground contact.
+/// A character prepared for drawing: derivatives for its normals, its ground contact.
 ///
 /// The deformation D(j) = Re(z Ñ_j) moves the surface's tangents t₁, t₂ = n × t₁ to tᵢ + ∂D/∂tᵢ, and the normal to the
 /// cross product of both (the cofactors of the surface's deformation gradient applied to n). So each coordinate comes with its
@@ -11,7 +11,6 @@
 
 enum {
     FIGURE_SOLES = 2,
-    FIGURE_COARSE = 10000, ///< triangles of the coarse mesh
 };
 
 /// Derivatives of one coordinate at one vertex, along t₁ (u) and t₂ (v), per metre.
@@ -26,13 +25,10 @@ struct sole {
 
 struct figure {
     struct character character;
-    struct pool pool;      ///< of what follows
-    float (*tangent)[3];   ///< t₁ per vertex: unit, across the normal
-    struct slope *slopes;  ///< [coordinate · vertex_count + vertex]
-    float (*largest)[3];   ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
-    uint32_t *coarse;      ///< triangles over the same vertices, at most FIGURE_COARSE or the fine ones
-    uint32_t *coarse_from; ///< per coarse triangle: its fine triangle
-    int coarse_count;      ///< indices
+    struct pool pool;     ///< of what follows
+    float (*tangent)[3];  ///< t₁ per vertex: unit, across the normal
+    struct slope *slopes; ///< [coordinate · vertex_count + vertex]
+    float (*largest)[3];  ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
     struct adjacency edges;
     float lo[3], hi[3]; ///< box at rest
     float dark;         ///< linear luminance below which a colour belongs to eyes and nose: far darker than the rest
@@ -69,12 +65,6 @@ void figure_free(struct figure *figure);
 
 /// Index of the coordinate of that name, or −1.
 int figure_find(const struct figure *figure, const char *name);
-
-/// Decimates a mesh, but keeps its vertices and their data. Writes at most `triangles` triangles (more if the surface would fold or open) to
-/// `indices`, which has room for all of the character's. Vertices collapse onto neighbours, starting with those that change shape and colour
-/// least. `sources` (may be NULL) receives the original of each triangle.
-void decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
-              int *index_count);
 
 // A soft character in motion: the sum of its complex normal coordinates, each turned and scaled by a weight,
 // D(j) = Re(Σ_k z_k Ñ_{k,j}).

@@ -99,15 +99,14 @@ static bool character_find(const struct posing *posing, const struct pin_query *
     return true;
 }
 
-/// The coarse mesh is enough for a mean.
 static void character_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
     const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = figure_of(posing, rig);
     for (int i = 0; figure && i < count; i++) {
         double sum = 0, areas = 0;
-        for (int t = 0; t + 2 < figure->coarse_count; t += 3) {
-            const uint32_t *corner = &figure->coarse[t];
+        for (int t = 0; t + 2 < figure->character.index_count; t += 3) {
+            const uint32_t *corner = &figure->character.indices[t];
             const float(*position)[3] = (const float(*)[3])figure->character.position;
             double u[3], v[3];
             for (int k = 0; k < 3; k++) {

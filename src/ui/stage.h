@@ -23,7 +23,6 @@ struct stage_character {
     struct morph morph;
     float position[3];
     int rig;            ///< index in the document
-    bool coarse;        ///< with half the triangles
     int map_coordinate; ///< coordinate whose phases are shown; −1: own colours
     int map_axis;       ///< axis of the shown phases: x, y, z
 };

@@ -219,26 +219,6 @@ TEST(a_far_picture_is_smooth)
     if (uneven > 8) fail_msg("the slope changes at %d of 40 pixels", uneven);
 }
 
-/// Of a ball, which is drawn coarser in a pair, the lower half stays red and the upper green.
-TEST(coarse_triangles_keep_their_material)
-{
-    struct character ball = puppet_character(0.017f, 0);
-    const int triangles = ball.index_count / 3;
-    ball.looks.material = malloc((size_t)triangles * sizeof *ball.looks.material);
-    assert_non_null(ball.looks.material);
-    for (int t = 0; t < triangles; t++) ball.looks.material[t] = ball.position[ball.indices[3 * t]][1] > 0.5f;
-    struct figure figure = puppet_figure(&ball);
-    assert_true(figure.coarse_count < figure.character.index_count);
-    int astray = 0;
-    for (int t = 0; t < figure.coarse_count / 3; t++) {
-        const float y = figure.character.position[figure.coarse[3 * t]][1];
-        const uint32_t material = figure.character.looks.material[figure.coarse_from[t]];
-        astray += fabsf(y - 0.5f) > 0.05f && material != (y > 0.5f);
-    }
-    assert_int_equal(astray, 0);
-    figure_free(&figure);
-}
-
 // --- textures and normals of glTF files
 
 /// Draws the nodes of a file that lie from −1 to 1, on the ground.

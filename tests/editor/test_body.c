@@ -444,7 +444,6 @@ PIN_TEST(test_a_character_comes_and_goes, bear)
     hands(s, "key A; click item.copy.0; wait; is rigs.# 2; is rigs.1.position.0 > 0.5;"
              "is rigs.1.coordinates.0.spline s; is stage.characters 2");
     assert_int_equal(s->editor->core.focus.characters.character, 1);
-    assert_true(editor_stage(s->editor)->characters[1].coarse);
     hands(s, "once; key Ctrl+Z; key Shift+Delete; is asked ask");
     assert_non_null(strstr(dialog_of(s->editor)->question.title, "Remove bear"));
     hands(s, "key Escape; kept; key Shift+Delete K; is rigs.# 0; is splines.# 2; once; key Ctrl+Z;"

@@ -297,12 +297,12 @@ static void outline(const struct posed *mesh, const float eye[3])
     }
 }
 
-static void draw_figure(const struct figure *figure, bool coarse)
+static void draw_figure(const struct figure *figure)
 {
     const float eye[3] = {1, 2, 3};
     const struct stage_character shown = {.figure = figure};
     struct posed mesh;
-    posed_from_figure(&mesh, figure, coarse);
+    posed_from_figure(&mesh, figure);
     posed_pose_figure(&mesh, &shown, eye);
     outline(&mesh, eye);
     posed_free(&mesh);
@@ -317,9 +317,7 @@ static void use_character(struct character *character)
     for (int e = 0; e < figure.edges.first[c->vertex_count]; e++)
         expect(figure.edges.other[e] < (uint32_t)c->vertex_count, "an edge ends at a vertex of the surface");
     for (int k = 0; k < 2 * c->coordinate_count; k++) figure_target_create(&figure, k / 2, k % 2, &figure.pool);
-    draw_figure(&figure, false);
-    decimate(c, c->index_count / 6, figure.coarse, figure.coarse_from, &figure.coarse_count);
-    draw_figure(&figure, true);
+    draw_figure(&figure);
     figure_free(&figure);
 }
 

@@ -1,4 +1,4 @@
-/// Soft characters: equations 29 and 30, normals, the coarse mesh, paint, phases as colours, the lowest points; and what is said of models that
+/// Soft characters: equations 29 and 30, normals, paint, phases as colours, the lowest points; and what is said of models that
 /// do not suit their scenes.
 #include "model/vector.h"
 #include "puppet.h"
@@ -113,32 +113,6 @@ TEST(normals_follow_the_deformation)
     free(posed);
     gltf_pose_free(&pose);
     gltf_free(&gltf);
-    figure_free(&figure);
-}
-
-/// Twice the fine mesh' size is too much for two: the coarse one is as round, as closed, and uses the same vertices.
-TEST(the_coarse_mesh_is_the_same_surface)
-{
-    struct character character = puppet_character(0.017f, 1);
-    struct figure figure = puppet_figure(&character);
-    const struct character *c = &figure.character;
-    assert_true(c->index_count > 3 * 20000);
-    assert_in_range(figure.coarse_count, 3 * 9000, 3 * FIGURE_COARSE);
-    char *used = calloc((size_t)c->vertex_count, 1);
-    double volume = 0;
-    for (int t = 0; t < figure.coarse_count; t += 3) {
-        const uint32_t *v = figure.coarse + t;
-        const float *p = c->position[v[0]], *q = c->position[v[1]], *r = c->position[v[2]];
-        volume += (double)(p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
-                           p[2] * (q[0] * r[1] - q[1] * r[0])) /
-                  6;
-        for (int k = 0; k < 3; k++) used[v[k]] = 1;
-    }
-    int vertices = 0;
-    for (int i = 0; i < c->vertex_count; i++) vertices += used[i];
-    assert_int_equal(vertices - figure.coarse_count / 6, 2); // V − E + F of a ball, E = 3F/2
-    assert_near(volume, M_PI / 6, 0.005 * M_PI / 6);
-    free(used);
     figure_free(&figure);
 }
 

@@ -32,6 +32,12 @@ struct dog_skeleton {
 /// Points of the tail from root to tip, and of the left ear.
 extern const float dog_tail[DOG_TAIL_JOINTS + 1][3], dog_ear[DOG_EAR_JOINTS + 1][3];
 
+/// Decimates a mesh, but keeps its vertices and their data. Writes at most `triangles` triangles (more if the surface would fold or open) to
+/// `indices`, which has room for all of the character's. Vertices collapse onto neighbours, starting with those that change shape and colour
+/// least.
+struct character;
+void decimate(const struct character *character, int triangles, uint32_t *indices, int *index_count);
+
 void dog_skeleton_make(struct dog_skeleton *skeleton);
 
 /// Index of a joint, which must exist.

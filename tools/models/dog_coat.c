@@ -204,7 +204,7 @@ static void thin(struct mesh *mesh, int triangles)
         memcpy(c.color[i], mesh->vertices[i].color, sizeof *c.color);
     }
     int index_count = 0;
-    decimate(&c, triangles, indices, NULL, &index_count);
+    decimate(&c, triangles, indices, &index_count);
     memcpy(mesh->indices, indices, (size_t)index_count * sizeof *indices);
     mesh->index_count = index_count;
     free(indices);

@@ -31,12 +31,8 @@ static void pose_soft(struct stage *stage, const struct core *core, int rig, int
     if (!rig_pose(&posing, rig, core->view.playback.position, NULL, &posed)) return;
     const struct figure *figure = posed.character.figure;
     struct stage_character *shown = &view->characters[view->character_count++];
-    *shown = (struct stage_character){.figure = figure,
-                                      .morph = posed.character.morph,
-                                      .rig = n,
-                                      .coarse = document_count_rigs(core->document, RIG_CHARACTER) > 1,
-                                      .map_coordinate = -1,
-                                      .map_axis = how->axis};
+    *shown = (struct stage_character){
+        .figure = figure, .morph = posed.character.morph, .rig = n, .map_coordinate = -1, .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k];
     const int drive = how->drive < character->drive_count ? how->drive : 0;
     const bool is_painted = core->focus.brush.on && n == how->character;
@@ -59,7 +55,7 @@ static uint64_t hash_characters(uint64_t sum, const struct stage_view *view)
     for (int c = 0; c < view->character_count; c++) {
         const struct stage_character *shown = &view->characters[c];
         const struct morph *morph = &shown->morph;
-        const int looks[] = {shown->coarse, shown->map_coordinate, shown->map_axis};
+        const int looks[] = {shown->map_coordinate, shown->map_axis};
         sum = hash_word(hash_word(sum, shown->figure->id), shown->figure->version);
         sum = hash_bytes(sum, shown->position, sizeof shown->position);
         sum = hash_bytes(sum, looks, sizeof looks);
