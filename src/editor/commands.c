@@ -164,25 +164,15 @@ static void run_panel(struct editor *editor, int inspector)
     core_set_panels(&editor->core, share, width);
 }
 
-enum {
-    CTRL = MOD_CTRL,
-    SHIFT = MOD_SHIFT,
-    ALT = MOD_ALT,
-    CTRL_SHIFT = MOD_CTRL | MOD_SHIFT,
-    ALT_SHIFT = MOD_ALT | MOD_SHIFT,
-    ALT_CTRL = MOD_ALT | MOD_CTRL,
-    TYPED = CHORD_TYPED
-};
+enum { CTRL = MOD_CTRL, SHIFT = MOD_SHIFT, ALT = MOD_ALT, CTRL_SHIFT = MOD_CTRL | MOD_SHIFT, TYPED = CHORD_TYPED };
 
-/// A row: its name, heading, places, need, when its keys work, its function with its argument, its keys.
+/// A row: its name, heading, places, need, when its key works, its function with its argument, its key.
 #define COMMAND(...) ALSO("", __VA_ARGS__)
 /// The same, which other words find, too.
 #define ALSO(words, named, heading, places, need, works, function, number, ...)                                      \
     {                                                                                                                \
         .name = (named), .also = (words), .about = ABOUT_##heading, .at = (places), .needs = NEEDS_##need,           \
-        .when = (works), function, .argument = (number), .chords = {                                                 \
-            __VA_ARGS__                                                                                              \
-        }                                                                                                            \
+        .when = (works), function, .argument = (number), .chord = __VA_ARGS__                                        \
     }
 /// A row only in the palette.
 #define PALETTE(named, need, function, number) COMMAND(named, NOTHING, 0, need, 0, function, number, {0})
@@ -208,7 +198,7 @@ const struct command commands[] = {
     COMMAND("Select all knots in sight", KNOTS, 0, KNOTS, 0, .core = core_select_all, true, {'A', CTRL_SHIFT}),
     COMMAND("Deselect, or cancel", KNOTS, 0, NOTHING, 0, .run = run_select_none, 0, {KEY_ESCAPE, 0}),
     ALSO("remove erase key", "Delete the selection", KNOTS, ON_KNOT | ON_PIN, CHOSEN, 0, .core = core_delete, 0,
-         {KEY_DELETE, 0}, {KEY_BACKSPACE, 0}),
+         {KEY_DELETE, 0}),
     COMMAND("Next knot or pin", KNOTS, ON_KNOT | ON_PIN, KNOTS, REPEATS | PINS, .knot = core_select_neighbour, 1,
             {'.', TYPED}),
     COMMAND("Previous knot or pin", KNOTS, ON_PIN, KNOTS, REPEATS | PINS, .knot = core_select_neighbour, -1,
@@ -441,14 +431,10 @@ const struct command commands[] = {
     ALSO("flip symmetry", "Mirror the chain to the other side", NOTHING, 0, TWIN, 0, .inspector = inspector_mirror, 0,
          {0}),
     PALETTE("Record the next drag of the body", BODY, .core = core_flip, SWITCH_RECORD),
-    COMMAND("Nudge right", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT},
-            {KEY_RIGHT, ALT_SHIFT}, {KEY_RIGHT, ALT_CTRL}),
-    COMMAND("Nudge left", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_LEFT, {KEY_LEFT, ALT},
-            {KEY_LEFT, ALT_SHIFT}, {KEY_LEFT, ALT_CTRL}),
-    COMMAND("Nudge up", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_UP, {KEY_UP, ALT}, {KEY_UP, ALT_SHIFT},
-            {KEY_UP, ALT_CTRL}),
-    COMMAND("Nudge down", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_DOWN, {KEY_DOWN, ALT},
-            {KEY_DOWN, ALT_SHIFT}, {KEY_DOWN, ALT_CTRL}),
+    COMMAND("Nudge right", NOTHING, 0, CHOSEN, REPEATS | IN_STEPS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT}),
+    COMMAND("Nudge left", NOTHING, 0, CHOSEN, REPEATS | IN_STEPS, .run = run_nudge, WAY_LEFT, {KEY_LEFT, ALT}),
+    COMMAND("Nudge up", NOTHING, 0, CHOSEN, REPEATS | IN_STEPS, .run = run_nudge, WAY_UP, {KEY_UP, ALT}),
+    COMMAND("Nudge down", NOTHING, 0, CHOSEN, REPEATS | IN_STEPS, .run = run_nudge, WAY_DOWN, {KEY_DOWN, ALT}),
     COMMAND("Pan left", NOTHING, 0, NOTHING, REPEATS, .run = run_pan, WAY_LEFT, {KEY_LEFT, CTRL}),
     COMMAND("Pan right", NOTHING, 0, NOTHING, REPEATS, .run = run_pan, WAY_RIGHT, {KEY_RIGHT, CTRL}),
     COMMAND("Pan up", NOTHING, 0, NOTHING, REPEATS, .run = run_pan, WAY_UP, {KEY_UP, CTRL}),
@@ -509,10 +495,12 @@ void command_run(struct editor *editor, const struct command *command)
 
 const struct command *keys_command(int key, unsigned mods)
 {
+    const unsigned step = mods & CTRL_SHIFT;
+    if (key == KEY_BACKSPACE && mods == 0) key = KEY_DELETE; // laptops such as Macs have no other
     for (int i = 0; i < command_count; i++) {
-        for (const struct chord *chord = commands[i].chords; chord->key; chord++) {
-            if (chord->key == key && chord->mods == mods) return &commands[i];
-        }
+        const struct command *command = &commands[i];
+        const unsigned apart = command->when & IN_STEPS && step != CTRL_SHIFT ? step : 0;
+        if (command->chord.key == key && command->chord.mods == mods - apart) return command;
     }
     return NULL;
 }

@@ -457,14 +457,11 @@ static const struct layout_of {
 
 static bool is_punctuation(int key) { return key < KEY_ESCAPE && key != KEY_SPACE && !isalnum(key); }
 
-/// Whether a command can be reached: one of its keys is on the layout.
+/// Whether a command can be reached: its key is on the layout, or it has none.
 static bool is_reached(const struct command *command, const struct layout_of *layout)
 {
-    for (const struct chord *c = command->chords; c->key; c++) {
-        const char *keys = c->mods & CHORD_TYPED ? layout->typed : layout->printed;
-        if (!is_punctuation(c->key) || strchr(keys, c->key)) return true;
-    }
-    return command->chords[0].key == 0;
+    const struct chord *c = &command->chord;
+    return !is_punctuation(c->key) || strchr(c->mods & CHORD_TYPED ? layout->typed : layout->printed, c->key);
 }
 
 TEST(test_every_layout_has_a_key_for_every_command)
@@ -480,12 +477,11 @@ TEST(test_every_layout_has_a_key_for_every_command)
 TEST(test_no_key_is_bound_twice)
 {
     for (int c = 0; c < command_count; c++) {
-        for (const struct chord *chord = commands[c].chords; chord->key; chord++) {
-            if (keys_command(chord->key, chord->mods) != &commands[c])
-                fail_msg("%s with modifiers %u is bound twice", key_name(chord->key), chord->mods);
-            assert_true(!is_punctuation(chord->key) ||
-                        chord->mods); // it would act once more when its character comes
-        }
+        const struct chord *chord = &commands[c].chord;
+        if (!chord->key) continue;
+        if (keys_command(chord->key, chord->mods) != &commands[c])
+            fail_msg("%s with modifiers %u is bound twice", key_name(chord->key), chord->mods);
+        assert_true(!is_punctuation(chord->key) || chord->mods); // it would act once more when its character comes
     }
 }
 

@@ -110,12 +110,6 @@ const char *command_key_name(int key)
     return key_name(key);
 }
 
-static size_t add(char text[COMMAND_KEYS], size_t length, const char *word)
-{
-    const int more = snprintf(text + length, COMMAND_KEYS - length, "%s", word);
-    return length + (size_t)more < COMMAND_KEYS ? length + (size_t)more : COMMAND_KEYS - 1;
-}
-
 bool command_is_browsers(int key, unsigned mods)
 {
     const bool is_arrow = key == KEY_LEFT || key == KEY_RIGHT || key == KEY_UP || key == KEY_DOWN;
@@ -128,17 +122,12 @@ bool command_is_browsers(int key, unsigned mods)
 
 void command_keys(const struct command *command, bool in_page, char text[COMMAND_KEYS])
 {
-    size_t length = 0;
-    text[0] = '\0';
-    if (command->gesture) add(text, 0, command->gesture);
-    const struct chord *end = command->chords + COMMAND_SHOWN;
-    for (const struct chord *chord = command->chords; !command->gesture && chord < end && chord->key; chord++) {
-        const char typed[2] = {(char)chord->key, '\0'};
-        if (in_page && command_is_browsers(chord->key, chord->mods)) continue;
-        if (length > 0) length = add(text, length, " or ");
-        if (chord->mods & MOD_CTRL) length = add(text, length, "Ctrl+");
-        if (chord->mods & MOD_SHIFT) length = add(text, length, "Shift+");
-        if (chord->mods & MOD_ALT) length = add(text, length, "Alt+");
-        length = add(text, length, chord->mods & CHORD_TYPED ? typed : command_key_name(chord->key));
-    }
+    const struct chord *chord = &command->chord;
+    const char typed[2] = {(char)chord->key, '\0'};
+    const bool has_key = chord->key && !(in_page && command_is_browsers(chord->key, chord->mods));
+    snprintf(text, COMMAND_KEYS, "%s", command->gesture ? command->gesture : "");
+    if (command->gesture || !has_key) return;
+    snprintf(text, COMMAND_KEYS, "%s%s%s%s", chord->mods & MOD_CTRL ? "Ctrl+" : "",
+             chord->mods & MOD_SHIFT ? "Shift+" : "", chord->mods & MOD_ALT ? "Alt+" : "",
+             chord->mods & CHORD_TYPED ? typed : command_key_name(chord->key));
 }

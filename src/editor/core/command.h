@@ -63,12 +63,13 @@ enum need {
     NEEDS_COUNT
 };
 
-/// When a command's keys work.
+/// When a command's key works.
 enum when {
     REPEATS = 1,  ///< also while the key is held
     ANY_TIME = 2, ///< also during a drag, while its undo step is open
     FIRST = 4,    ///< before a drag, the inspector or a popup get the key
-    PINS = 8      ///< goes from pin to pin if one is selected
+    PINS = 8,     ///< goes from pin to pin if one is selected
+    IN_STEPS = 16 ///< also with Shift (larger steps) or Ctrl (smaller ones)
 };
 
 enum { CHORD_TYPED = 1 << 8 /* among `mods`: it is the typed character, wherever a keyboard has it */ };
@@ -79,22 +80,18 @@ struct chord {
     unsigned mods;
 };
 
-enum {
-    COMMAND_CHORDS = 4,
-    COMMAND_SHOWN = 2, ///< in F1 and the palette; docs/keys.md lists all
-    COMMAND_KEYS = 96  ///< bytes for their names
-};
+enum { COMMAND_KEYS = 96 }; ///< bytes for a key's name, or a gesture's
 
 /// A row of the table. A row without a function is a gesture, listed only in F1.
 struct command {
     const char *name; ///< NULL: not listed
     const char *also; ///< other words for it, which the palette finds; NULL for a gesture
     enum about about;
-    unsigned at;                         ///< of enum place
-    struct chord chords[COMMAND_CHORDS]; ///< ends at one without a key
+    unsigned at; ///< of enum place
+    struct chord chord;
     enum need needs;
     unsigned when;       ///< of enum when
-    const char *gesture; ///< of the mouse or a held key; replaces the chords
+    const char *gesture; ///< of the mouse or a held key; replaces the chord
     void (*run)(struct editor *editor, int argument);
     void (*core)(struct core *core, int argument);
     void (*curves)(struct curves *curves, struct core *core, int argument);
@@ -111,7 +108,7 @@ bool command_runs(const struct command *command);
 const char *need_missing(const struct core *core, enum need need);
 /// Keys that a browser keeps for itself: reload, its address, tabs and history.
 bool command_is_browsers(int key, unsigned mods);
-/// Its first keys, "Del or Backspace", or its gesture; "" for neither. In a page, without the browser's own.
+/// Its key, "Ctrl+Shift+Z", or its gesture; "" for neither, or, in a page, for a key that is the browser's own.
 void command_keys(const struct command *command, bool in_page, char text[COMMAND_KEYS]);
 /// A key's name, as "Esc", "PgUp", "←", or NULL.
 const char *command_key_name(int key);
