@@ -143,17 +143,11 @@ static void draw_number(struct drawlist *list, float x, float y, const char *tex
 /// The unit circle with a filter's poles.
 static void draw_circle(const struct filter *filter, struct rect r, struct drawlist *list)
 {
-    enum { POINTS = 65 };
     const float radius = r.h / 2 - 6, cx = r.x + r.h / 2, cy = r.y + r.h / 2;
-    float circle[POINTS][2];
-    for (int i = 0; i < POINTS; i++) {
-        const double angle = 2 * M_PI * (i % (POINTS - 1)) / (POINTS - 1);
-        circle[i][0] = cx + radius * (float)maths_cos(angle);
-        circle[i][1] = cy - radius * (float)maths_sin(angle);
-    }
     draw_straight(list, cx - radius - 5, cy, cx + radius + 5, cy, 1, theme()->grid_major);
     draw_straight(list, cx, cy - radius - 5, cx, cy + radius + 5, 1, theme()->grid_major);
-    drawlist_line(list, circle[0], POINTS, 1.25f, theme()->equilibrium);
+    drawlist_rounded_line(list, (struct rect){cx - radius, cy - radius, 2 * radius, 2 * radius}, radius, 1.25f,
+                          theme()->equilibrium);
     for (int i = 0; i < filter->count; i++) {
         const double size = radius * maths_exp(filter->s[i][0] * filter->step),
                      angle = filter->s[i][1] * filter->step;
