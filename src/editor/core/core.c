@@ -376,6 +376,14 @@ void core_choose(struct core *core, int spline)
     core_activate(core, spline);
 }
 
+wiggly_desc core_describe(const struct core *core, int spline, bool cubic, wiggly_knot **knots)
+{
+    struct evaluation evaluation = *core->evaluation;
+    evaluation.cubic = cubic;
+    *knots = need((size_t)core->document->splines[spline]->knot_count, sizeof **knots);
+    return evaluation_describe(&evaluation, core->document, spline, *knots);
+}
+
 double core_round(double value, double resolution)
 {
     if (!isfinite(resolution)) return value;

@@ -56,6 +56,8 @@ void core_add_stopped(const char *why, char *text, size_t size);
 /// Shows the reason an edit stopped in the status line.
 void core_stopped(struct core *core, const char *why);
 struct spline *core_active_spline(const struct core *core);
+/// Describes a spline for the solver, whichever comparison is shown; the caller frees its knots.
+wiggly_desc core_describe(const struct core *core, int spline, bool cubic, wiggly_knot **knots);
 /// Activates a spline and clears the selection.
 void core_activate(struct core *core, int spline);
 /// The same for a spline chosen by itself: Feel then acts on no other.

@@ -360,31 +360,6 @@ void core_toggle_pose_to_pose(struct core *core, int unused)
     core_edited(core, core->focus.active);
 }
 
-/// Finds explanations of the knots; returns how many.
-static int explain(const struct core *core, const struct spline *spline, wiggly_explanation found[2])
-{
-    const struct evaluation *evaluation = core->evaluation;
-    wiggly_desc desc = wiggly_default_desc();
-    wiggly_knot *knots = need((size_t)spline->knot_count, sizeof *knots);
-    for (int k = 0; k < spline->knot_count; k++) {
-        const int sample = document_sample(core->document, spline->knots[k].frame);
-        const struct knot *knot = &spline->knots[k];
-        knots[k] = (wiggly_knot){.sample = sample, .value = knot->value, .still = knot->still};
-    }
-    desc.samples = document_samples(core->document);
-    desc.step = document_step(core->document);
-    desc.mode = spline_mode(spline);
-    desc.knots = knots;
-    desc.knot_count = spline->knot_count;
-    desc.equilibrium.value = spline->parameter[PARAMETER_EQUILIBRIUM].value;
-    if (param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) && evaluation &&
-        core->focus.active < evaluation->count)
-        desc.equilibrium.track = evaluation->curves[core->focus.active].y;
-    const int count = wiggly_explain(&desc, found);
-    free(knots);
-    return count;
-}
-
 /// Rounded as in files.
 static double frequency_of(const wiggly_explanation *found) { return round(found->frequency * 100) / 100; }
 
@@ -394,7 +369,7 @@ void core_find_frequency(struct core *core, int unused)
 {
     (void)unused;
     const struct spline *spline = core_active_spline(core);
-    if (!spline) return;
+    if (!spline || !evaluation_is_of(core->evaluation, core->document)) return;
     const struct param *p = spline->parameter;
     const bool follows = p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0;
     const char *reason = NULL;
@@ -402,7 +377,10 @@ void core_find_frequency(struct core *core, int unused)
     if (follows) reason = "Frequency or damping follows another spline. Give it a number first.";
     if (spline_mode(spline) == WIGGLY_CUBIC) reason = "A cubic does not swing. Press M to change the kind.";
     wiggly_explanation found[2];
-    const int count = reason ? 0 : explain(core, spline, found);
+    wiggly_knot *knots;
+    const wiggly_desc desc = core_describe(core, core->focus.active, false, &knots);
+    const int count = reason ? 0 : wiggly_explain(&desc, found);
+    free(knots);
     if (count <= 0) {
         core_message(core, false, "%s", reason ? reason : "These knots do not swing: no frequency explains them.");
         return;
