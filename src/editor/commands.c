@@ -52,6 +52,8 @@ static void run_select_none(struct editor *e, int argument)
         e->core.focus.pick = (struct bone_pick){0};
     } else if (e->core.view.presenter.on) {
         presenter_toggle(&e->core, 0);
+    } else if (e->core.cleaning.of) {
+        core_simplify(&e->core, false);
     } else if (e->core.focus.bone.any) {
         bones_clear(&e->core);
     } else if (pins_any_selected(&e->core)) {
@@ -65,6 +67,12 @@ static void run_hold(struct editor *e, int argument)
 {
     (void)argument;
     stage_hold_point(e->stage, &e->core);
+}
+
+static void run_simplify(struct editor *e, int argument)
+{
+    core_simplify(&e->core, argument);
+    inspector_unfold(e->inspector, "section.knot");
 }
 
 enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_DUPLICATE, CLIPBOARD_PASTE /* + enum paste */ };
@@ -223,6 +231,10 @@ const struct command commands[] = {
          .curves = curves_scale, 0, {'S', 0}),
     ALSO("amplitude exaggerate", "Scale the swing of the selection", KNOTS, 0, SELECTED, 0, .curves = curves_scale,
          true, {'S', SHIFT}),
+    ALSO("clean reduce thin knots", "Simplify: fewer knots", KNOTS, IN_CURVES_MENU, KNOTS, 0, .run = run_simplify,
+         true, {0}),
+    ALSO("noise average jitter clean", "Smooth the selection", KNOTS, 0, SELECTED, 0, .core = core_smooth_knots, 0,
+         {0}),
     GESTURE("Drag their box", "Scale (Alt: the swing)", KNOTS, 0),
 
     GESTURE("X, Y", "Only time, only value", DRAG, 0),

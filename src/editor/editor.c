@@ -54,6 +54,7 @@ void editor_destroy(struct editor *editor)
     dialogs_destroy(editor->dialogs);
     drawlist_destroy(&editor->core.list);
     take_keep(&editor->core, false);
+    core_simplify(&editor->core, false);
     free(editor->core.focus.selection.bits);
     free(editor->core.view.hidden.bits);
     free(editor->core.view.solo.bits);
@@ -562,6 +563,7 @@ void editor_advance(struct editor *editor, double dt)
     playback_advance(&editor->core, dt);
     curves_advance(editor->curves, &editor->core, dt);
     drag_apply(&editor->core, dt);
+    core_simplify_advance(&editor->core);
     stage_advance(editor->stage, &editor->core, dt);
     end_event(editor);
 }

@@ -271,7 +271,9 @@ SESSION_TEST(test_right_click_is_a_menu, panel_open(s, scene, 1280, 720))
     right_click(s, "knot(sway,1)");
     assert_int_equal(lookup_of(s->editor)->kind, LOOKUP_MENU);
     assert_int_equal(selected(s->editor), 1);
-    hands(s, "shows Delete the selection; shows Scale the selection; hides Go to the start; hides Undo; key Enter");
+    hands(s,
+          "shows Delete the selection; shows Scale the selection; shows Simplify: fewer knots; hides Go to the start;"
+          "hides Undo; key Enter");
     assert_int_equal(s->document->splines[0]->knot_count, 1);
     right_click(s, "ruler(50)");
     hands(s, "shows Play from here; type undo; key Enter");

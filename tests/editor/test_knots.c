@@ -458,3 +458,87 @@ SESSION_TEST(copies_come_behind_and_pass_through, session_open(s, MARKED))
     assert_non_null(mark);
     assert_non_null(strstr(mark + 1, "\"mark\": \"kept\"")); // keys that nobody here knows are copied too
 }
+
+// --- cleaning up ---
+
+/// A swing of 1 Hz with noise.
+#define NOISY                                                                                                        \
+    "<0 0.749>, <3 0.054>, <6 -0.54>, <9 -0.772>, <12 -0.551>, <15 -0.059>, <18 0.391>, <21 0.533>, <24 "            \
+    "0.376>, <27 0.02>, <30 -0.249>, <33 -0.367>, <36 -0.266>, <39 -0.049>, <42 0.155>, <45 0.268>, <48 "            \
+    "0.189>, <51 0.036>, <54 -0.1>, <57 -0.185>"
+
+static const char noisy[] =
+    "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1.6, 'damping': 0.1, "
+    "'wind_up': 0.5, 'knots': [" NOISY "]}]}";
+
+/// At once and by one slide: few knots that swing as they did. Esc goes back to before the slide, undo to before all.
+WALK(noisy_knots_become_few, session_open(s, noisy),
+     "keep; key F3; type reduce; key Enter; wait 1; sway.knots 3; sway.frequency 1 ~0.03; said 20 knots → 3: ;"
+     "shows 20 knots → 3; sway@9 -0.72 ~0.06; sway@30 -0.24 ~0.1; slide tolerance 0; wait 1; sway.knots 20;"
+     "key Escape; wait 1; sway.knots 3; release; slide tolerance 0.3; wait 1; release; sway.knots 3; once;"
+     "key Ctrl+Z; wait 1; kept; lacks tolerance")
+WALK(a_tolerance_of_0_gives_all_back, session_open(s, noisy),
+     "keep; click knot.simplify; wait 1; sway.knots 3; slide tolerance 0; wait 1; kept; release; wait 1; kept")
+WALK(another_edit_ends_it, session_open(s, noisy),
+     "keep; click knot.simplify; wait 1; finds tolerance; lacks knot.simplify; carry knot(sway,1) 0 20; wait 1; "
+     "lacks tolerance;"
+     "key 2*Ctrl+Z; wait 1; kept; finds knot.simplify; click knot.simplify; wait 1; finds tolerance; key Escape; "
+     "lacks tolerance; sway.knots 3")
+
+/// Of selected knots only those go, and the frequency stays.
+WALK(selected_knots_are_thinned, session_open(s, noisy),
+     "keep; click knot(sway,5); with Shift; click knot(sway,6); click knot(sway,7); click knot(sway,8); with; key "
+     "F3; type reduce;"
+     "key Enter; wait 1; finds tolerance; slide tolerance 0.3; wait 1; release; sway.knots < 20; sway.knots > 15; "
+     "sway.frequency 1.6;"
+     "sway.1.frame 3; sway.4.frame 12; once")
+
+/// Loops close, limits and poses hold, whatever the spline is and follows; one undo brings back every byte.
+TEST(all_kinds_are_simplified)
+{
+    static const char *const kinds[] = {
+        "'mode': 'real'",
+        "'mode': 'cubic'",
+        "'start': 'loop', 'wind_up': 0.5",
+        "'start': 'rest', 'wind_up': 0",
+        "'limits': [-0.8, 0.8]",
+        "'frequency': {'spline': 'lead'}, 'equilibrium': {'spline': 'lead'}",
+        "'variation': {'seed': 3, 'amount': 0.2}",
+    };
+    static const char knots[] =
+        NOISY ", {'frame': 60, 'value': 0.1, 'im': 0.2}, {'frame': 66, 'still': true, 'mood': 1}, "
+              "{'frame': 70, 'value': 0.3, 'slope': 1, 'settles': true}, <72 0.2>, <75 0.1>";
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        struct session session = {0}, *s = &session;
+        char scene[2048];
+        snprintf(scene, sizeof scene,
+                 "{'wiggly': 1, 'frames': [0, 96], 'splines': [{'name': 'sway', 'damping': 0.1, %s, 'knots': [%s]}, "
+                 "{'name': "
+                 "'lead', 'mode': 'cubic', 'knots': [<0 1>, <90 1.5>]}]}",
+                 kinds[i], knots);
+        session_open(s, scene);
+        hands(s, "keep; click knot.simplify; wait 1; slide tolerance 0.2; wait 1; release; wait 1; sway.knots < 25; "
+                 "sway.knots > 1; saves 'im': 0.2;"
+                 "saves 'mood': 1; finds tolerance");
+        assert_loads_again(s->document);
+        if (i == 4) {
+            for (int k = 0; k < s->document->splines[0]->knot_count; k++)
+                assert_true(fabs(s->document->splines[0]->knots[k].value) <= 0.8 ||
+                            s->document->splines[0]->knots[k].still);
+        }
+        hands(s, "once; key Ctrl+Z; kept; key Ctrl+Y; wait 2; key Ctrl+Z; wait 1; kept");
+        session_close(s);
+    }
+}
+
+/// Each time they zigzag less. The ends of a row stay.
+WALK(selected_knots_are_smoothed,
+     session_open(s, "{'wiggly': 1, 'frames': [0, 48], 'splines': [{'name': 'sway', 'frequency': 1, 'damping': 0.1, "
+                     "'knots': [<0 0>, <4 "
+                     "0.2>, <8 0>, <12 0.2>, <16 0>, <20 0.2>, <24 0>, <28 0.2>]}]}"),
+     "keep; key Ctrl+A; key F3; type jitter; key Enter; wait 1; sway.knots 8; sway.0.value 0 ~0; sway.7.value 0.2 ~0;"
+     "sway.3.value ! 0.2; sway.3.value 0.1 ~0.07; sway.4.value 0.1 ~0.07; undone; key F3; type jitter; key Enter; "
+     "wait 1; key F3; type jitter;"
+     "key Enter; wait 1; sway.3.value 0.1 ~0.05; sway.4.value 0.1 ~0.05; key 2*Ctrl+Z; kept; click knot(sway,4); "
+     "keep; key F3; type jitter;"
+     "key Enter; wait 1; kept; said three knots")

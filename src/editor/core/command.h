@@ -35,7 +35,8 @@ enum place {
     ON_PIN = 16,
     ON_INSPECTOR = 32,
     IN_STAGE_MENU = 64, ///< only a right-click on the stage lists it
-    IN_EXAMPLES = 128   ///< only the list of examples has it
+    IN_EXAMPLES = 128,  ///< only the list of examples has it
+    IN_CURVES_MENU = 256
 };
 
 /// What a command needs.

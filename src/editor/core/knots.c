@@ -463,3 +463,104 @@ void core_duplicate_knots(struct core *core)
     core_message(core, false, "Duplicated %d knot%s; the scene now ends on frame %d.", count, count == 1 ? "" : "s",
                  end);
 }
+
+// --- cleaning up: fewer knots, and smoother ones
+
+/// Opens a spline's knots; those that are not selected are fixed if `part`.
+static struct simplify *open_knots(const struct core *core, int spline, bool cubic, bool part, bool searches)
+{
+    const struct spline *of = core->document->splines[spline];
+    bool *fixed = need((size_t)of->knot_count, sizeof *fixed);
+    wiggly_knot *knots;
+    const wiggly_desc desc = core_describe(core, spline, cubic, &knots);
+    for (int k = 0; k < of->knot_count; k++)
+        fixed[k] = part && !selection_has(&core->focus.selection, of->knots[k].id);
+    struct simplify *opened = simplify_open(&desc, fixed, searches);
+    free(knots);
+    free(fixed);
+    return opened;
+}
+
+void core_simplify(struct core *core, int on)
+{
+    struct cleaning *cleaning = &core->cleaning;
+    const int active = core->focus.active;
+    simplify_close(cleaning->of);
+    spline_drop(cleaning->was);
+    *cleaning = (struct cleaning){.done = -1};
+    const struct spline *spline = on ? core_active_spline(core) : NULL;
+    if (!spline || spline->knot_count == 0 || !evaluation_is_of(core->evaluation, core->document)) return;
+    const int count = selection_count(&core->focus.selection, spline);
+    const bool part = count > 1 && count < spline->knot_count;
+    const bool follows = param_follows(&spline->parameter[PARAMETER_FREQUENCY]) ||
+                         param_follows(&spline->parameter[PARAMETER_DAMPING]);
+    cleaning->of = open_knots(core, active, false, part, !part && !follows && spline_mode(spline) != WIGGLY_CUBIC);
+    cleaning->was = spline_hold(core->document->splines[active]);
+    cleaning->edits = cleaning->merge = core->document->edits;
+    cleaning->tolerance = core_round(0.03 * cleaning->of->range, 1e-3 * cleaning->of->range);
+}
+
+void core_simplify_advance(struct core *core)
+{
+    struct cleaning *cleaning = &core->cleaning;
+    struct simplify *of = cleaning->of;
+    const int active = core->focus.active;
+    if (!of) return;
+    if (core->focus.active_id != cleaning->was->id || core->document->edits != cleaning->edits) {
+        core_simplify(core, false);
+        return;
+    }
+    if (cleaning->tolerance == cleaning->done || !core_step(core, "Simplify", cleaning->merge)) return;
+    core->step.pressed.count = 0; // Keep would make a pose of the last knot
+    cleaning->done = cleaning->tolerance;
+    simplify_within(of, 0.99 * cleaning->tolerance);
+    while (core_active_spline(core)->knot_count > 0)
+        edit_knot_remove(core->document, active, core_active_spline(core)->knots[0].id, &core->step.error);
+    for (int k = 0; k < of->count; k++) {
+        const double unit = 1e-3 * fmax(cleaning->tolerance, 1e-6 * of->range);
+        const wiggly_knot *now = &of->knots[k];
+        struct knot knot = cleaning->was->knots[k];
+        if (!knot.still && now->value != knot.value) knot.value = core_round(now->value, unit);
+        if (now->has_phase && !knot.has_phase) knot.phase = core_round(now->phase, unit);
+        knot.has_phase = now->has_phase;
+        knot.value = spline_within(cleaning->was, knot.value);
+        if (of->stays[k]) edit_knot_insert(core->document, active, &knot, &core->step.error);
+    }
+    if (of->searched) {
+        core_set_parameter(core, active, PARAMETER_FREQUENCY, of->desc.frequency.value);
+        core_set_parameter(core, active, PARAMETER_DAMPING, of->desc.damping.value);
+    }
+    core_edited(core, active);
+    core_close(core);
+    cleaning->edits = core->document->edits;
+    if (of->searched && !core->message.is_error)
+        core_message(core, false, "%d knots → %d: %.2f Hz, damping %.3g.", of->count, of->left,
+                     of->desc.frequency.value, of->desc.damping.value);
+}
+
+void core_smooth_knots(struct core *core, int unused)
+{
+    const struct selection *selection = &core->focus.selection;
+    int moved = 0;
+    (void)unused;
+    if (collect(core) == 0 || !evaluation_is_of(core->evaluation, core->document) ||
+        !core_step(core, "Smooth knots", 0))
+        return;
+    for (int s = 0; s < core->document->spline_count; s++) {
+        const struct spline *spline = core->document->splines[s];
+        if (selection_count(selection, spline) < 3) continue;
+        struct simplify *of = open_knots(core, s, true, false, false);
+        for (int k = 1; k < of->count - 1; k++) {
+            struct knot knot = core->document->splines[s]->knots[k];
+            if (knot.still || !selection_has(selection, spline->knots[k - 1].id) ||
+                !selection_has(selection, knot.id) || !selection_has(selection, spline->knots[k + 1].id))
+                continue;
+            const double value = core_round((knot.value + simplify_without(of, k)) / 2, 1e-4 * of->range);
+            knot.value = spline_within(core->document->splines[s], value);
+            moved += core_put_knot(core, s, &knot);
+        }
+        simplify_close(of);
+    }
+    core_edited(core, -1);
+    if (moved == 0) core_message(core, false, "Select three knots or more in a row: the ends of a row stay.");
+}

@@ -34,6 +34,13 @@ void slopes_set(struct core *core, int how);
 bool core_copy_knots(struct core *core, bool cut);
 /// Turns the selected knots upside down about zero.
 void core_mirror_knots(struct core *core, int unused);
+/// Begins to simplify the active spline, or of its knots the selected ones if these are several; or ends it (0). Until then,
+/// core_simplify_advance() applies the chosen tolerance once a frame.
+void core_simplify(struct core *core, int on);
+void core_simplify_advance(struct core *core);
+/// Moves the selected knots half way to a cubic through the others; those at the ends of a row stay.
+void core_smooth_knots(struct core *core, int unused);
+
 /// Pastes knots, the first at the playhead with the others at their distances, and selects them; at their own frames or upside down if
 /// input.paste says so, once. If one does not fit, none is pasted.
 void core_paste_knots(struct core *core, const char *text);

@@ -10,6 +10,7 @@
 #include "scene/edit.h"
 #include "scene/evaluate.h"
 #include "scene/history.h"
+#include "scene/simplify.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
 #include "ui/stage.h"
@@ -270,6 +271,14 @@ struct take {
     enum look look;
 };
 
+/// Simplify, while its tolerance can be changed: until the next other edit.
+struct cleaning {
+    struct simplify *of;    ///< NULL: not now
+    struct spline *was;     ///< the spline as it was
+    uint64_t edits, merge;  ///< of the document since; of the undo step
+    double tolerance, done; ///< the chosen one, and the one of the present knots
+};
+
 /// A knot's indices.
 struct knot_place {
     int spline, knot;
@@ -349,6 +358,7 @@ struct core {
     const struct models *models;
     unsigned serial; ///< of the document
     struct take take;
+    struct cleaning cleaning;
 
     struct step step;
     struct focus focus;

@@ -210,9 +210,11 @@ static void curves_update(struct curves *curves, struct core *core)
 void keep_ghost(struct curves *curves, const struct core *core)
 {
     struct ghost *ghost = &curves->ghost;
-    const bool was_shown = ghost->is_shown;
-    ghost->is_shown = core->input.drag.moved && core->input.drag.label;
-    if (was_shown || !ghost->is_shown) return;
+    const uint64_t was = ghost->of;
+    ghost->of = core->input.drag.moved && core->input.drag.label ? UINT64_MAX
+                : core->cleaning.of                              ? core->cleaning.merge
+                                                                 : 0;
+    if (was == ghost->of || ghost->of == 0) return;
     const struct curve_cache *cache = &curves->cache;
     ghost->count = cache->count;
     ghost->band = cache->band;
@@ -610,7 +612,7 @@ static void show_lines(struct curves *curves, struct core *core)
                   theme_fade(spline_list_color(document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
     if (spline && cache->count > 1) {
-        if (ghost->is_shown && core->input.drag.owner && ghost->count > 1) {
+        if (ghost->of && (core->input.drag.owner || core->cleaning.of) && ghost->count > 1) {
             for (int c = 0; c < ghost->count; c++) {
                 xy[2 * c] = curves_x(core, ghost->frame[c]);
                 xy[2 * c + 1] = curves_y(core, ghost->value[c]);

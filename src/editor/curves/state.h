@@ -123,9 +123,9 @@ struct curve_cache {
     int range_count;
 };
 
-/// The active curve before a drag, in frames and values so that it survives panning and zooming.
+/// The active curve before a drag or Simplify, in frames and values so that it survives panning and zooming.
 struct ghost {
-    bool is_shown; ///< the drag has edited
+    uint64_t of; ///< UINT64_MAX: the drag, which has edited; 0: nothing; else which Simplify
     int count;
     bool band;
     double frame[EDITOR_MAX_COLUMNS], value[EDITOR_MAX_COLUMNS];

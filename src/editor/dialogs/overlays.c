@@ -169,7 +169,8 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
         char keys[COMMAND_KEYS], text[256];
         fits[i] = FIT_NOT;
         if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
-        const unsigned at = dialogs->lookup.at, places = at & ON_STAGE ? at | IN_STAGE_MENU : at;
+        const unsigned at = dialogs->lookup.at, in_curves = at & (ON_CURVES | ON_KNOT) ? IN_CURVES_MENU : 0;
+        const unsigned places = at | in_curves | (at & ON_STAGE ? IN_STAGE_MENU : 0);
         if (runs && (command->at & IN_EXAMPLES) != (at & IN_EXAMPLES)) continue;
         if (menu && (!(command->at & places) || missing[command->needs])) continue;
         command_keys(command, core->app.in_page, keys); // its keys also find it

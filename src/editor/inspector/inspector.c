@@ -8,6 +8,7 @@
 #include "editor/core/splines.h"
 #include "editor/core/view.h"
 #include "editor/inspector/state.h"
+#include "maths/maths.h"
 #include "scene/pins.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -812,9 +813,33 @@ static void build_field(struct inspector *in, int field, bool one)
     }
 }
 
+static bool set_tolerance(struct inspector *in, int which, double number, struct error *error)
+{
+    (void)which, (void)error;
+    in->core->cleaning.tolerance = number;
+    return true;
+}
+
+static void build_tolerance(struct inspector *in)
+{
+    const double range = in->core->cleaning.of->range;
+    const struct number_row row = {NUMBER_AT(struct cleaning, tolerance),
+                                   .ui = {NAMED("tolerance", "tolerance"),
+                                          .hint = "How far the curve may be from any of the knots that were there",
+                                          BAR(0, 0.2 * range), TYPED(0, INSPECTOR_NO_LIMIT), .fallback = 0.03 * range,
+                                          .step = 0.002 * range, .decimals = (int)fmax(0, 3 - maths_decade(range))}};
+    const struct number_home home = {.of = &in->core->cleaning, .set = set_tolerance};
+    inspector_number(in, &row, &home, 0, ui_row(&in->ui, UI_ROW));
+}
+
 const char *inspector_knot_title(struct inspector *in)
 {
+    const struct simplify *cleaning = in->core->cleaning.of;
     const int count = selected_count(in->core);
+    if (cleaning) {
+        snprintf(in->knot_title, sizeof in->knot_title, "%d knots → %d", cleaning->count, cleaning->left);
+        return in->knot_title;
+    }
     if (count < 2) return "Knot";
     snprintf(in->knot_title, sizeof in->knot_title, "%d knots", count);
     return in->knot_title;
@@ -842,7 +867,7 @@ void inspector_knot(struct inspector *in)
              .hint = "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
             {NAMED("slope.switch", sloped ? "Remove" : "Add"),
              .hint = sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)"}};
-        const int pressed = build_buttons(in, rows, 3);
+        const int pressed = in->core->cleaning.of ? -1 : build_buttons(in, rows, 3);
         if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
     } else { // the spline's knots
         const int knots = spline->knot_count;
@@ -857,7 +882,12 @@ void inspector_knot(struct inspector *in)
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
         inspector_idle(in, "knots", frames);
         inspector_idle(in, "values", values);
+        static const struct row simplify = {NAMED("knot.simplify", "Simplify"),
+                                            .hint = "Fewer knots for nearly the same motion"};
+        if (!in->core->cleaning.of && knots > 2 && build_buttons(in, &simplify, 1) == 0)
+            core_simplify(in->core, true);
     }
+    if (in->core->cleaning.of) build_tolerance(in);
     ui->y = fmaxf(ui->y, end);
 }
 
