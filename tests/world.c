@@ -233,6 +233,8 @@ static int do_spline(struct document *d, const struct words *w, struct error *er
     if (is(w, "order")) return edit_spline_move(d, w->spline, NUMBER(2), error);
     if (is(w, "name")) return edit_spline_name(d, w->spline, w->word[2], error);
     if (is(w, "color")) return edit_spline_color(d, w->spline, NUMBER(2), error);
+    if (is(w, "folder")) return edit_spline_folder(d, w->spline, w->count > 2 ? w->word[2] : "", error);
+    if (is(w, "lock")) return edit_spline_lock(d, w->spline, NUMBER(2), error);
     return -1;
 }
 

@@ -42,6 +42,7 @@ struct document *world_edit(struct world *world);
 ///     follow SPLINE PARAMETER MODEL JOINT OF GAIN CHAIN                     names, or '' and - for an empty one and none
 ///     add PLACE NAME FRAME VALUE          copy SPLINE    drop SPLINE        order SPLINE PLACE
 ///     name SPLINE NAME                    color SPLINE NUMBER
+///     folder SPLINE [NAME]                lock SPLINE 0|1
 ///     fps RATE [keep]                     substeps N                        range FIRST LAST refuse|move|trim
 ///     angles RIG CHANNEL KIND NUMBER …    numbers, or of a ramp PLACE:DEGREES
 ///     bend RIG CHANNEL SPLINE AXIS OF     channel RIG SPLINE AXIS OF        unchannel RIG CHANNEL

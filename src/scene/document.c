@@ -102,6 +102,7 @@ struct spline *spline_clone(const struct spline *spline)
     *clone = *spline;
     atomic_init(&clone->holders, 1);
     clone->name = copy_text(spline->name);
+    clone->folder = copy_text(spline->folder);
     clone->knots = need((size_t)spline->knot_count + 1, sizeof *clone->knots); // mostly for one more knot
     for (int k = 0; k < spline->knot_count; k++) clone->knots[k] = spline->knots[k];
     motion_hold(clone->parameter[PARAMETER_EQUILIBRIUM].motion);
@@ -119,6 +120,7 @@ void spline_drop(struct spline *spline)
     if (!spline || atomic_fetch_sub(&spline->holders, 1) > 1) return;
     motion_drop(spline->parameter[PARAMETER_EQUILIBRIUM].motion);
     free(spline->name);
+    free(spline->folder);
     free(spline->knots);
     free(spline);
 }
@@ -210,6 +212,7 @@ size_t document_bytes_beside(const struct document *document, const struct docum
         const int there = other ? document_find_spline_id(other, spline->id) : -1;
         if (there >= 0 && other->splines[there] == spline) continue;
         bytes += sizeof *spline + (size_t)spline->knot_count * sizeof *spline->knots + strlen(spline->name) + 1;
+        if (spline->folder) bytes += strlen(spline->folder) + 1;
     }
     for (int i = 0; i < document->rig_count; i++) {
         const struct rig *rig = document->rigs[i];

@@ -56,8 +56,10 @@ struct spline {
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
     int knot_count;
-    int color;   ///< 0xRRGGBB, or -1: from the theme, in turn
-    unsigned id; ///< like a knot's
+    int color;    ///< 0xRRGGBB, or -1: from the theme, in turn
+    char *folder; ///< of the list, or NULL
+    bool locked;  ///< the curves leave it alone
+    unsigned id;  ///< like a knot's
     struct json_t *extra;
 };
 

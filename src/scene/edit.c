@@ -386,6 +386,25 @@ bool edit_spline_color(struct document *document, int spline, int color, struct 
     return true;
 }
 
+bool edit_spline_folder(struct document *document, int spline, const char *folder, struct error *error)
+{
+    if (!document_has_spline(document, spline, error)) return false;
+    const char *before = document->splines[spline]->folder;
+    if (strcmp(before ? before : "", folder) == 0) return true;
+    struct spline *own = document_own_spline(document, spline);
+    char *copy = folder[0] ? need_text(folder) : NULL;
+    free(own->folder);
+    own->folder = copy;
+    return true;
+}
+
+bool edit_spline_lock(struct document *document, int spline, bool locked, struct error *error)
+{
+    if (!document_has_spline(document, spline, error)) return false;
+    if (document->splines[spline]->locked != locked) document_own_spline(document, spline)->locked = locked;
+    return true;
+}
+
 static bool check_constant(const struct spline *spline, enum parameter parameter, double value, struct error *error)
 {
     double low = parameter_rows[parameter].minimum, high = parameter_maximum(parameter, spline_mode(spline));

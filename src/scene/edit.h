@@ -34,6 +34,9 @@ bool edit_spline_name(struct document *document, int spline, const char *name, s
 bool edit_spline_settles(struct document *document, int spline, bool settles, struct error *error);
 /// 0xRRGGBB, or -1.
 bool edit_spline_color(struct document *document, int spline, int color, struct error *error);
+/// "": none.
+bool edit_spline_folder(struct document *document, int spline, const char *folder, struct error *error);
+bool edit_spline_lock(struct document *document, int spline, bool locked, struct error *error);
 
 // --- the scene -----------------------------------------------------------------------------------------------------------
 

@@ -16,7 +16,7 @@
 // --- splines
 
 /// Keys that are not parameters.
-static const char *const spline_keys[] = {"name", "knots", "color", "spring", "friction", NULL};
+static const char *const spline_keys[] = {"name", "knots", "color", "folder", "locked", "spring", "friction", NULL};
 
 /// false if a word is not one of the choices.
 static bool load_parameter(struct reader *reader, const struct value *object, struct spline *spline,
@@ -234,6 +234,9 @@ static void load_splines(struct reader *reader, const struct value *scene)
         if (color.json && !text) reader_unexpected(reader, color, "a colour such as \"#FFB000\"");
         if (text && !color_parse(text, &spline->color))
             reader_fail(reader, &color.at, "expected a colour such as \"#FFB000\", got \"%s\"", text);
+        const struct value folder = reader_member(&object, "folder");
+        if (folder.json) spline->folder = reader_name(reader, folder);
+        reader_flag(reader, reader_member(&object, "locked"), &spline->locked);
 
         const struct where start_at = {.parent = &object.at, .key = "start"};
         if (spline_start(spline) == WIGGLY_LOOP && reader->has_domain && samples == 1)
@@ -486,6 +489,9 @@ static void print_spline(struct text *text, const struct document *document, con
         color_print(spline->color, color);
         member_string(&members, "color", color);
     }
+    if (spline->folder) member_string(&members, "folder", spline->folder);
+    if (spline->locked) member(&members, "locked");
+    if (spline->locked) text_string(text, "true");
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         const char *name = parameter_key(p);
         const double value = spline->parameter[p].value;

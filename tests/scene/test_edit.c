@@ -105,6 +105,9 @@ static const struct change {
     {small, "color pluck 0x4FA3E3", "s1.color='#4FA3E3'; s0.color="},
     {small, "color pluck 0; color sway 0xFFFFFF", "s1.color='#000000'; s0.color='#FFFFFF'"},
     {small, "color pluck 1; color pluck -1", "s1.color="},
+    {small, "folder pluck ears; copy pluck; lock sway 1",
+     "s1.folder='ears'; s2.folder='ears'; s3.folder=; s0.locked=true; s1.locked="},
+    {small, "folder pluck ears; folder pluck; lock sway 1; lock sway 0", "s1.folder=; s0.locked="},
 
     // 24 to 30 frames a second: kept seconds put the knot of frame 12 on 15, and a slope per second stays what it is
     {small, "fps 30", "fps=30; frames=[0,48]; s0.k1.frame=12"},
@@ -226,7 +229,8 @@ TEST(edits_without_effect_are_no_steps)
 {
     assert_edits(json(small),
                  "move sway 0 0 0 | set sway frequency 1 | set loop start loop | track loop equilibrium sway | "
-                 "name sway sway | order pluck 1 | color sway -1 | fps 24 keep | substeps 1 | range 0 48 trim",
+                 "name sway sway | order pluck 1 | color sway -1 | folder sway | lock sway 0 | fps 24 keep | "
+                 "substeps 1 | range 0 48 trim",
                  "");
     assert_edits(json(small),
                  "joints t 3 | rename t t | angles t 1 gain 1 2 3 | bend t 0 - - - | length t 1.6 | "
