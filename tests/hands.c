@@ -440,6 +440,7 @@ static double of_editor(struct session *s, const char *name)
                    {"camera.elevation", camera->elevation},
                    {"channel", e->inspector->channel},
                    {"choice", dialog->choice},
+                   {"chosen", core_chosen_count(&e->core)},
                    {"curves.others", e->curves->cache.other_count},
                    {"dragging", is_dragging(e)},
                    {"dropped", (double)playback->dropped},

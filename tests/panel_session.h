@@ -57,9 +57,8 @@ static inline uint32_t panel_id(struct session *session, const char *name)
 /// Opens every section of the inspector.
 static inline void panel_unfold(struct session *session)
 {
-    static const char *const sections[] = {"feel",      "knot",  "splines",   "spline",   "rigs",
-                                           "model",     "tail",  "character", "advanced", "limits",
-                                           "variation", "scene", "history",   "pins"};
+    static const char *const sections[] = {"feel",     "knot",   "spline",    "rigs",  "model",   "tail", "character",
+                                           "advanced", "limits", "variation", "scene", "history", "pins"};
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         char name[32];
         snprintf(name, sizeof name, "section.%s", sections[i]);

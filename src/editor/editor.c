@@ -56,6 +56,7 @@ void editor_destroy(struct editor *editor)
     take_keep(&editor->core, false);
     core_simplify(&editor->core, false);
     free(editor->core.focus.selection.bits);
+    free(editor->core.view.folded.bits);
     free(editor->core.view.hidden.bits);
     free(editor->core.view.solo.bits);
     free(editor->core.clipboard);
@@ -636,7 +637,7 @@ void editor_show(struct editor *editor)
     const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
     if (below) curves_show(editor->curves, core);
     if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
-    if (side) inspector_show(editor->inspector, covered);
+    if (side || below) inspector_show(editor->inspector, covered);
     if (side) show_divider(editor, core->view.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
     if (below) status_show(editor);
 

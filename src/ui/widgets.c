@@ -87,8 +87,8 @@ static void move_focus(struct ui *ui, int direction)
         at = (at + direction + ui->stop_count) % ui->stop_count;
     }
     ui->focus = ui->stop[at].id;
-    const struct rect r = ui->stop[at].rect;
-    if (ui->scrolled) ui_list_show(ui->scrolled, r.y - ui->scroll_area.y + ui->scrolled->offset, r.h);
+    const struct ui_stop *stop = &ui->stop[at];
+    if (stop->list) ui_list_show(stop->list, stop->top, stop->rect.h);
 }
 
 void ui_keep(struct ui *ui, uint32_t id)
@@ -202,7 +202,7 @@ void ui_list_end(struct ui *ui)
     struct rect view = ui->scroll_area;
     struct ui_list *list = ui->scrolled;
     list->content = ui->y + list->offset - view.y;
-    const uint32_t held = ui_hash("scroll");
+    const uint32_t held = ui_id(ui, "scroll");
     const struct event *event = ui->event;
     float by = 0; // the event scrolls: the wheel, or a drag beside the widgets
     if (ui_pressed(ui, view, BUTTON_LEFT)) ui_hold(ui, held);
@@ -220,6 +220,7 @@ void ui_list_end(struct ui *ui)
         ui_list_bar(list, ui->list, (struct rect){view.x + view.w - 6, view.y, 4, view.h}, 2);
         drawlist_set_clip(ui->list, ui->scroll_clip);
     }
+    ui->scrolled = NULL;
     ui->clip = ui->scroll_clip;
     ui->y = view.y + view.h;
 }
@@ -270,9 +271,11 @@ void ui_register(struct ui *ui, uint32_t id, struct rect r)
         ui->focus_rect = r;
         hint_focus(ui, ui->offered_rect, ui->offered);
     }
-    if (ui->pass == UI_PASS_EVENT && !ui->blocked && is_shown(ui, id)) ui->twice = (struct ui_stop){id, r};
+    const struct ui_stop stop = {id, r, ui->scrolled,
+                                 ui->scrolled ? r.y - ui->scroll_area.y + ui->scrolled->offset : 0};
+    if (ui->pass == UI_PASS_EVENT && !ui->blocked && is_shown(ui, id)) ui->twice = stop;
     if ((!ui->blocked || ui->pass == UI_PASS_DRAW) && ui->stop_count < UI_MAX_FOCUS)
-        ui->stop[ui->stop_count++] = (struct ui_stop){id, r};
+        ui->stop[ui->stop_count++] = stop;
     if (ui->pass == UI_PASS_FIND && (ui->find == id || ui->find == (id ^ ui->scope[ui->depth])) && !ui->found) {
         ui->found_x = r.x + r.w / 2;
         ui->found_y = r.y + r.h / 2;
@@ -546,7 +549,7 @@ enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label,
         if (event->kind == EVENT_WHEEL) return UI_ROW_NONE;
         ui->used = true;
         if (release || escape) ui->held = 0;
-        return release && ui->moved ? UI_ROW_DROPPED : UI_ROW_NONE;
+        return !release ? UI_ROW_NONE : ui->moved ? UI_ROW_DROPPED : UI_ROW_CLICKED;
     }
     if (activated(ui, id)) return UI_ROW_PRESSED;
     if (ui_pressed(ui, label, BUTTON_LEFT)) {
@@ -584,8 +587,8 @@ static const struct icon_part {
     {UI_ICON_DELETE, LINE, .count = 2, .at = {-1.5f, -5.5f, 1.5f, -5.5f}},
     {UI_ICON_DELETE, LINE, .count = 4, .at = {-3.8f, -3.5f, -3.2f, 5, 3.2f, 5, 3.8f, -3.5f}},
     {UI_ICON_DELETE, LINE, .count = 2, .at = {0, -1, 0, 2.5f}},
-    {UI_ICON_UP, LINE, .count = 3, .at = {-4.5f, 2.5f, 0, -2, 4.5f, 2.5f}},
-    {UI_ICON_DOWN, LINE, .count = 3, .at = {-4.5f, -2.5f, 0, 2, 4.5f, -2.5f}},
+    {UI_ICON_RIGHT, LINE, .count = 3, .at = {-2, -4, 2, 0, -2, 4}},
+    {UI_ICON_DOWN, LINE, .count = 3, .at = {-4, -2, 0, 2, 4, -2}},
     {UI_ICON_EYE, ARC, .count = 9, .at = {0, 3.5f, 7, 7.5f, 0.57f, 0.93f}},
     {UI_ICON_EYE, ARC, .count = 9, .at = {0, -3.5f, 7, 7.5f, 0.07f, 0.43f}},
     {UI_ICON_EYE, DOT, .at = {0, 0, 2}},
@@ -593,8 +596,10 @@ static const struct icon_part {
     {UI_ICON_EYE_CLOSED, LINE, .count = 2, .at = {0, 4, 0, 6}},
     {UI_ICON_EYE_CLOSED, LINE, .count = 2, .at = {-4, 3, -5, 4.8f}},
     {UI_ICON_EYE_CLOSED, LINE, .count = 2, .at = {4, 3, 5, 4.8f}},
-    {UI_ICON_SOLO, RING, .at = {0, 0, 5.5f}},
-    {UI_ICON_SOLO, DOT, .at = {0, 0, 2.2f}},
+    {UI_ICON_LOCK, LINE, .count = 5, .at = {-4, -0.5f, 4, -0.5f, 4, 5, -4, 5, -4, -0.5f}},
+    {UI_ICON_LOCK, ARC, .count = 9, .at = {0, -0.5f, 2.6f, 4.5f, 0.5f, 1}},
+    {UI_ICON_UNLOCKED, LINE, .count = 5, .at = {-4, -0.5f, 4, -0.5f, 4, 5, -4, 5, -4, -0.5f}},
+    {UI_ICON_UNLOCKED, ARC, .count = 9, .at = {0, -2, 2.6f, 4, 0.46f, 0.94f}},
     {UI_ICON_FOLLOW, ARC, .count = 17, .at = {-3, 0, 3.2f, 3.2f, 0.08f, 0.92f}}, // two links of a chain
     {UI_ICON_FOLLOW, ARC, .count = 17, .at = {3, 0, 3.2f, 3.2f, -0.42f, 0.42f}},
     {UI_ICON_FOLLOW, LINE, .count = 2, .at = {-2.2f, 0, 2.2f, 0}},

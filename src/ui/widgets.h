@@ -19,7 +19,7 @@ enum {
     UI_PAD = 12,        ///< from the panel's edge to its content
     UI_LABEL = 84,      ///< width of the label column
     UI_GAP = 8,         ///< between things in a row
-    UI_MAX_FOCUS = 160, ///< widgets per panel that Tab reaches
+    UI_MAX_FOCUS = 224, ///< widgets per panel that Tab reaches
     UI_MAX_SCOPES = 4,  ///< one inside the other, with the panel's own
     UI_TEXT_SIZE = PATH_LIMIT,
     UI_NAME_SIZE = 1024, ///< bytes of the name of a widget for a spline or a bone
@@ -86,6 +86,8 @@ void ui_list_bar(const struct ui_list *list, struct drawlist *drawn, struct rect
 struct ui_stop {
     uint32_t id;
     struct rect rect;
+    struct ui_list *list; ///< that it scrolls in, or NULL
+    float top;            ///< in the list
 };
 
 /// The open popup. Only it gets events.
@@ -244,11 +246,12 @@ enum ui_icon {
     UI_ICON_ADD,
     UI_ICON_COPY,
     UI_ICON_DELETE,
-    UI_ICON_UP,
+    UI_ICON_RIGHT,
     UI_ICON_DOWN,
     UI_ICON_EYE,
     UI_ICON_EYE_CLOSED,
-    UI_ICON_SOLO,
+    UI_ICON_LOCK,
+    UI_ICON_UNLOCKED,
     UI_ICON_FOLLOW,   ///< a link
     UI_ICON_UNFOLLOW, ///< the same, broken
     UI_ICON_PICK,     ///< a target
@@ -282,8 +285,9 @@ bool ui_popup_is_open(const struct ui *ui, const char *name);
 void ui_popup_begin(struct ui *ui, float width, float height);
 void ui_popup_end(struct ui *ui);
 
-/// A row that a drag reorders; when dropped, `ui->pointer_y` says where. Only `label` can be dragged; the rest belongs to the caller.
-enum ui_row_event { UI_ROW_NONE, UI_ROW_PRESSED, UI_ROW_TWICE, UI_ROW_DROPPED };
+/// A row that a drag reorders; when dropped, `ui->pointer_y` says where. Only `label` can be dragged; the rest belongs to the caller. A press that
+/// ends without a drag is a click.
+enum ui_row_event { UI_ROW_NONE, UI_ROW_PRESSED, UI_ROW_CLICKED, UI_ROW_TWICE, UI_ROW_DROPPED };
 enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label, const char *name, const char *text,
                               bool selected);
 bool ui_is_dragged(const struct ui *ui, const char *name);

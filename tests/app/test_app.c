@@ -168,10 +168,10 @@ BLIND_TEST(presenting_gives_the_stage_the_window_and_changes_nothing, blind_open
     assert_near(l->stage.w * 1.5f, 1280, 1);
     assert_near(l->stage.h * 1.5f, 720, 1);
     assert_true(l->inspector.x >= l->window.w && l->curves.y >= l->window.h);
-    assert_false(shows(b, "Splines"));
+    assert_false(shows(b, "Knot"));
     blind_key(b, KEY_ESCAPE, 0);
     assert_memory_equal(l, &normal, sizeof normal);
-    assert_true(shows(b, "Splines"));
+    assert_true(shows(b, "Knot"));
     assert_true(history_is_saved(b->app.work.history));
     assert_prints(b->app.work.document, before);
     free(before);

@@ -325,8 +325,8 @@ PINNED_TEST(test_the_selected_mark_is_taken_first)
 {
     float marks[2][2];
     hands(s, "key Escape Right H Escape; is rigs.0.pins.# 2");
-    plot_of(s->editor)->frame0 -= 400; // frames are so narrow that both marks are in reach
-    plot_of(s->editor)->frame1 += 400;
+    plot_of(s->editor)->frame0 -= 300; // frames are so narrow that both marks are in reach
+    plot_of(s->editor)->frame1 += 300;
     session_frame(s);
     for (int m = 0; m < 2; m++) session_where(s, m ? "pintime(tail,1)" : "pintime(tail,0)", marks[m]);
     assert_true(marks[1][0] - marks[0][0] > 1 && marks[1][0] - marks[0][0] < 5);

@@ -368,3 +368,112 @@ static const char later[] =
 WALK(test_a_drag_of_a_tail_with_an_offset, session_open(s, later),
      "seek 35; carry tail(tail,0.9) 20 0; sway.knots 3; sway.1.frame 32; is playhead 35; once; key Ctrl+Z;"
      "seek 1; carry tail(tail,0.9) 20 0; sway.knots 3; sway.2.frame 98; is playhead 1; once")
+
+// The list of splines: `ears` is a folder, `left` and `right` bend a tail, `far` is alone.
+#define EAR(name, value, end)                                                                                        \
+    "{'name': '" name "', 'frequency': 1, 'damping': 0.1, 'knots': [<0 0>, <40 " value ">]}" end
+static const char listed[] = "{'frames': [0, 100], 'splines': [" EAR("sway", "1", ",")
+    EAR("left', 'folder': 'ears", "2", ",") EAR("right', 'folder': 'ears", "3", ",")
+        EAR("far", "4",
+            "],") "'rigs': [{'type': 'tail', 'name': 'tail', "
+                  "'channels': [{'spline': 'left', 'lag': 6}, {'spline': 'right', 'axis': 'up', 'lag': 3}]}]}";
+
+/// Each begins with that scene and `sway` as the active spline.
+TEST(test_list_of_splines)
+{
+    static const char *const rows[] = {
+        // Ctrl adds and takes away, Shift extends; a click on one of several selects it alone, also after it
+        "with Ctrl; click spline.far; chosen 2; active 0; click spline.far; chosen 1; click spline.sway; chosen 1",
+        "with Shift; click spline.right; chosen 3; active 0; with; click spline.left; chosen 1; active 1",
+        "with Shift; click spline.right; with; press spline.left; chosen 3; active 1; release; chosen 1",
+        "with Shift; click spline.right; key PageDown; chosen 1",
+        "click folder.ears; chosen 2; active 1; with Ctrl; click spline.far; chosen 3; click folder.ears;"
+        "chosen 2; key Escape; chosen 1; active 1",
+        // what is done to them is one step, which brings them back when it is undone
+        "with Shift; click spline.right; with; keep; mentions 3 splines; enter frequency 2; sway.frequency 2;"
+        "right.frequency 2; far.frequency 1; once; click spline.far; key Ctrl+Z; chosen 3; kept",
+        "with Ctrl; click spline.far; with; click preset.jelly; sway.damping 0.06; far.damping 0.06;"
+        "left.damping 0.1; once",
+        "click spline.left; with Ctrl; click spline.right; with; enter lag 12; is rigs.0.channels.0.lag 12;"
+        "is rigs.0.channels.1.lag 6; once; ignores tail (; click tail(tail,0.8); mentions tail (2 splines)",
+        "with Ctrl; click spline.far; with; hold F; key Up; let F; sway.frequency 1.05; far.frequency 1.05; once",
+        "with Shift; click spline.left; with; click color.left; click color.3; is splines.0.color #1F9E7A;"
+        "is splines.1.color #1F9E7A; is splines.2.color nothing; once",
+        "click folder.ears; key F3; type duplicate the spl; key Enter; is splines.# 6; chosen 2;"
+        "is active.name left 2; is splines.4.name right 2; is splines.4.folder ears; once",
+        "with Ctrl; click spline.far; with; key F3; type delete the spl; key Enter; is splines.# 2; is asked none;"
+        "once",
+        "click folder.ears; key F3; type delete the spl; key Enter; mentions left and others are used in 2 places;"
+        "key D; is splines.# 2; is rigs.0.channels.# 0; once",
+        "curves.others 3; with Ctrl; click spline.left; with; click eye.left; curves.others 2; is curve:0 0; kept;"
+        "click eye.far; curves.others 1",
+        // a locked spline cannot be hit, boxed, nudged, or given a knot; its knots are no longer selected
+        "click knot(sway,1); selected 1; click lock.sway; is splines.0.locked true; selected 0; once; keep;"
+        "click knot(sway,1); selected 0; key Ctrl+A; selected 0; key I;"
+        "says sway is locked: open its lock in the list first.; again curve(sway,20,0.9); kept; click lock.sway;"
+        "is splines.0.locked nothing",
+        "click spline.far; click lock.ears; is splines.1.locked true; is splines.2.locked true;"
+        "is splines.0.locked nothing; once; click lock.ears; kept",
+        "click lock.far; pull knot(far,1) 0 -30; release; far.1.value 4; active 0",
+        // folders: dragged into and out of, made, renamed, given up
+        "press spline.far; drag 0 -60; release; is splines.1.name far; is splines.1.folder ears; once", // below its head
+        "press spline.far; drag 0 -72; release; is splines.1.name far; is splines.1.folder ears; once",    // onto it
+        "press spline.far; drag 0 -86; release; is splines.1.name far; is splines.1.folder nothing; once", // above it
+        "click fold.ears; press spline.far; drag 0 -24; release; is splines.3.folder ears; once",
+        "press spline.left; drag 0 38; release; is splines.2.name left; is splines.2.folder ears; once", // within
+        "press spline.left; drag 0 66; release; is splines.3.name left; is splines.3.folder nothing; once",
+        "press folder.ears; drag 0 -44; release; is splines.0.name left; is splines.1.folder ears;"
+        "is splines.2.name sway; once",
+        "with Ctrl; click spline.far; with; key F3; type into a folder; key Enter; is splines.0.name sway;"
+        "is splines.1.name far; is splines.1.folder sway; once; finds folder.sway",
+        "click spline.left; key F3; type into a folder; key Enter; is splines.2.name left;"
+        "is splines.2.folder nothing; is splines.1.folder ears; once",
+        "again folder.ears; type whiskers; key Enter; is splines.1.folder whiskers; is splines.2.folder whiskers;"
+        "once",
+        "again folder.ears; key Delete Enter; is splines.1.folder nothing; lacks folder.ears; once",
+        "click spline.far; key F3; type spline up; key Enter; is splines.2.name far; is splines.2.folder ears;"
+        "key F3; type spline up; key Enter; is splines.1.folder ears; key F3; type spline up; key Enter;"
+        "is splines.0.name far; is splines.0.folder nothing",
+        "click fold.ears; lacks spline.left; finds spline.far; kept; key PageDown; lacks spline.left; key F2;"
+        "is typing 1; type ear; key Enter; finds spline.ear",
+        // by keyboard
+        "tab spline.left; key Enter; active 1; key Tab Tab Tab; key Enter; is splines.1.locked true"};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct session s;
+        panel_open(&s, listed, 1280, 720);
+        hands(&s, "click spline.sway; keep; %s", rows[i]);
+        session_close(&s);
+    }
+}
+
+/// A right-click on a row selects it, unless it is selected, and lists what can be done with all that are.
+SESSION_TEST(test_menu_of_a_row, panel_open(s, listed, 1280, 720))
+{
+    hands(s, "click folder.ears");
+    right_click(s, "widget(spline.right)");
+    hands(s, "is lookup menu; chosen 2; shows Rename the spline; shows Put into a folder, or take out; key Escape");
+    right_click(s, "widget(spline.far)");
+    hands(s, "chosen 1; is active.name far; key Enter; is typing 1; key Escape; kept");
+}
+
+/// On a phone the list has colours alone, until a name is typed.
+WALK(test_narrow_list, panel_open(s, listed, 390, 844),
+     "click spline.sway; with Shift; click spline.right; chosen 3; with; lacks eye.right; key F2; wait; finds "
+     "eye.right; type x; key "
+     "Enter;"
+     "is splines.0.name x; wait; lacks eye.right; click fold.ears; lacks spline.left; click splines.add; active 4")
+
+/// Forty splines: a new one's row is scrolled into sight, and a finger scrolls rows that it has not chosen.
+SESSION_TEST(test_a_long_list, panel_open(s, listed, 1280, 720))
+{
+    for (int i = 0; i < 36; i++) assert_done(edit_spline_add(s->document, -1, NULL, NULL, &error));
+    const struct ui_list *list = &s->editor->inspector->lines;
+    hands(s,
+          "lacks spline.spline_30; lacks splines.add; key F3; type add a spline; key Enter; finds spline.spline_37");
+    hands(s, "click spline.spline_36; keep");
+    s->finger = true;
+    const float before = list->offset;
+    hands(s, "carry spline.spline_30 0 60; kept; is active.name spline 30");
+    assert_near(list->offset, before - 60, 1);
+    hands(s, "carry spline.spline_30 0 30; once");
+}

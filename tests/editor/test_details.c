@@ -90,8 +90,9 @@ static int lines_at(struct session *s, const char *widget)
 
 SESSION_TEST(small_buttons_have_their_icons, panel_open(s, tail, 1280, 1400))
 {
+    hands(s, "hover spline.sway");
     assert_true(lines_at(s, "eye.sway") > 0);
-    assert_true(lines_at(s, "solo.sway") > 0);
+    assert_true(lines_at(s, "lock.sway") > 0);
 }
 
 /// A letter that is let go while a dialog, which no key has opened, is open is no longer held once that is closed.

@@ -285,7 +285,7 @@ static bool curves_say(const struct session *s, const char *text)
 }
 
 /// Paused between two frames, the playhead names the frame on which I sets a knot. V: which way the curves are shown stands beside them for
-/// as long as they are. The phase curve is named where it is drawn.
+/// as long as they are, and so does whether the phase curve is.
 TAIL_TEST(test_the_curves_say_how_they_are_shown)
 {
     assert_false(curves_say(s, "phase"));

@@ -95,6 +95,7 @@ TEST(test_ten_keys_about_what_is_under_the_pointer)
                 {"curve(sway,20,0)", "Over the curves", "Fix the first warning", ON_CURVES},
                 {"ruler(20)", "Over the ruler and the status line", "Scrub", ON_TIME},
                 {"stage(0.05,0.1)", "Over the stage", "Onion skin", ON_STAGE},
+                {"widget(spline.sway)", "Over the splines' list", "Put into a folder, or take out", ON_ROW},
                 {"widget(section.feel)", "In the inspector", "Type a number, +5, *2, 12/24", ON_INSPECTOR}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         struct session s;
@@ -629,9 +630,9 @@ static void assert_goes_round(struct session *s)
     const struct ui *ui = inspector_of(s->editor);
     int count = 0;
     panel_unfold(s);
-    const int stops = ui->stop_count;
+    hands(s, "key Tab; wait");
+    const int stops = ui->stop_count; // with those that the active row has for the keyboard
     assert_true(stops > 60 && stops < UI_MAX_FOCUS);
-    hands(s, "key Tab");
     const uint32_t first = ui->focus;
     do {
         assert_ringed(s, ui);

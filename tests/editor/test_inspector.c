@@ -77,8 +77,8 @@ WALK(test_a_dragged_frame_passes_through_a_neighbour, panel_open(s, scene, 1280,
 /// Nothing is selected: the section says what knots there are; what is below stays where it is.
 WALK(test_the_knot_section_without_a_knot, panel_open(s, scene, 1280, 1400),
      "shows 3, frames 0 … 60; click spline.lift; shows 1, frame 10; click spline.sway;"
-     "keep y:section.splines; seek 20; key I; is splines.0.knots.# 4; is splines.0.knots.1.frame 20;"
-     "is y:section.splines kept; finds slope.flat; key Escape; lacks slope.flat")
+     "keep y:section.spline; seek 20; key I; is splines.0.knots.# 4; is splines.0.knots.1.frame 20;"
+     "is y:section.spline kept; finds slope.flat; key Escape; lacks slope.flat")
 
 /// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
 WALK(test_several_knots, panel_open(s, scene, 1280, 1600),
@@ -125,38 +125,33 @@ WALK(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 900),
 
 /// What is being edited stays what it is when the list around it changes, and when that is undone.
 WALK(test_the_active_spline_is_followed, panel_open(s, scene, 1280, 900),
-     "click spline.pace; click splines.down; is active.name pace; is active 2; once; is active.name pace;"
+     "click spline.pace; key F3; type spline down; key Enter; is active.name pace; is active 2; once; is active.name "
+     "pace;"
      "key Ctrl+Z; is active.name pace;"
-     "click splines.copy; is active.name pace 2;"
-     "click splines.delete; is splines.# 3; is asked none") // nothing follows it: no question
+     "key F3; type duplicate the spl; key Enter; is active.name pace 2;"
+     "key F3; type delete the spl; key Enter; is splines.# 3; is asked none") // nothing follows it: no question
 
 /// Deleting what others follow asks; then they keep the value of that frame, and the tail lets go of it.
 WALK(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 900),
-     "click ruler(90); click spline.pace; click splines.delete; is asked ask; key Escape; kept;"
-     "click splines.delete; key D; is splines.# 2; is splines.1.frequency 2 ~1e-9; is rigs.0.channels.1.spline lift;"
-     "once; click spline.lift; keep;"
-     "click splines.delete; key Enter; is rigs.0.channels.# 1; once")
+     "click ruler(90); click spline.pace; key F3; type delete the spl; key Enter; is asked ask; key Escape; kept;"
+     "key F3; type delete the spl; key Enter D; is splines.# 2; is splines.1.frequency 2 ~1e-9;"
+     "is rigs.0.channels.1.spline lift; once; click spline.lift; keep;"
+     "key F3; type delete the spl; key Enter Enter; is rigs.0.channels.# 1; once")
 
 /// The only spline may go as well; what is left still draws, and can be added to.
 WALK(test_an_empty_list, panel_open(s, scene, 960, 900),
-     "click splines.delete; is asked ask; key D; click splines.delete; is asked ask; key D;"
-     "click splines.delete; is asked ask; key D; is splines.# 0; is active -1;"
-     "click splines.delete; click splines.copy; is splines.# 0;"
+     "with Shift; click spline.lift; with; is chosen 3; key F3; type delete the spl; key Enter;"
+     "mentions sway and others are used in; key D; is splines.# 0; is active -1; once;"
+     "key Ctrl+Y; key F3; type delete the spl; key Enter Escape; is splines.# 0;"
      "click splines.add; is active.name spline")
 
 WALK(test_renaming, panel_open(s, scene, 1280, 900),
      "again spline.sway; type swing; key Enter; is splines.0.name swing; once;"
-     "click section.splines; key F2; type pace; key Enter;" // F2 opens the list again
+     "key F2; type pace; key Enter;"
      "is splines.0.name swing; said a spline called pace already exists;"
      "key F2 End; type s; key Enter; is splines.0.name swings;" // the name that is there is what is edited
      "key Ctrl+Z; key F2 Delete Enter; is splines.0.name swing; said a spline needs a name;" // all is selected
      "is splines.0.knots.# 3")
-
-SESSION_TEST(test_rows_are_dragged_to_their_place, panel_open(s, scene, 1280, 900))
-{
-    hands(s, "press spline.sway; drag 0 %d; kept; release; is splines.2.name sway; is active.name sway; once",
-          2 * (int)UI_ROW);
-}
 
 WALK(test_colours, panel_open(s, scene, 1280, 900),
      "click color.pace; click color.3; is splines.1.color #1F9E7A; is popup 0; once;"
@@ -168,9 +163,9 @@ WALK(test_colours, panel_open(s, scene, 1280, 900),
 /// The order of the list does not matter to what is hidden, and only the order is an edit.
 WALK(test_hidden_and_solo_curves, panel_open(s, scene, 1280, 900),
      "is curves.others 2; click eye.pace; is curves.others 1; is history.saved 1;"
-     "click spline.pace; click splines.up; is curve:0 0;"
-     "click solo.lift; is curve:2 1; is curve:1 0;"
-     "click solo.lift; click eye.pace; is curves.others 2; is history.saved 0")
+     "click spline.pace; key F3; type spline up; key Enter; is curve:0 0;"
+     "click spline.lift; key F3; type solo; key Enter; is curve:2 1; is curve:1 0;"
+     "key F3; type solo; key Enter; click eye.pace; is curves.others 2; is history.saved 0")
 
 /// Attached from the list, which has no spline that would make a cycle; detached, it keeps the value at the playhead.
 WALK(test_a_track_is_attached_and_detached, panel_open(s, scene, 1280, 900),
@@ -502,16 +497,16 @@ static void open_first(struct session *s)
 
 SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
 {
-    static const char *const headers[] = {"section.feel", "section.knot", "section.splines"};
+    static const char *const headers[] = {"section.feel", "section.knot"};
     const struct ui *ui = inspector_of(s->editor);
     hands(s,
           "finds preset.cat; finds frequency; finds damping; finds wind-up; finds lag; finds gain;"
           "finds spline.sway; finds splines.add; finds more; finds look.stiff;"
-          "lacks follow.frequency; lacks gain.ramp; lacks gain.curve; lacks eye.sway; lacks color.sway;"
-          "lacks splines.delete; lacks section.spline; lacks section.rigs; lacks section.tail; lacks section.pins;"
-          "lacks section.limits; lacks section.history; wait; shows Wiggly; hides Spring"); // none of them is one
+          "lacks follow.frequency; lacks gain.ramp; lacks gain.curve;"
+          "lacks section.spline; lacks section.rigs; lacks section.tail; lacks section.pins;"
+          "lacks section.limits; lacks section.history; wait");
     int count = ui->stop_count; // that Tab reaches, without headers
-    for (int i = 0; i < 3 * ui->stop_count; i++) count -= ui->stop[i / 3].id == ui_id(ui, headers[i % 3]);
+    for (int i = 0; i < 2 * ui->stop_count; i++) count -= ui->stop[i / 2].id == ui_id(ui, headers[i % 2]);
     assert_in_range(count, 10, 20);
 }
 
@@ -549,9 +544,9 @@ static const char mixed[] =
 /// or gain is a curve.
 SESSION_TEST(test_rows_stay_where_they_are, panel_open(s, mixed, 1280, 2000))
 {
-    static const char *const rows[] = {"section.knot", "section.splines", "more", "section.rigs", "section.tail"};
+    static const char *const rows[] = {"section.knot", "more", "section.rigs", "section.tail"};
     for (int more = 0; more < 2; more++) {
-        const int count = more ? 5 : 3;
+        const int count = more ? 4 : 2;
         hands(s, more ? "more" : "more off");
         for (int r = 0; r < count; r++) hands(s, "keep y:%s", rows[r]);
         for (int i = 0; i < 5; i++) {

@@ -297,7 +297,7 @@ SESSION_TEST(the_sheet_takes_its_room_from_the_curves, session_open(s, THREE))
     assert_near(layout->sheet.y, layout->ruler.y + layout->ruler.h, 0.01);
     assert_near(layout->sheet.x, plot.x, 0); // marks are under their frames on the ruler
     assert_near(layout->sheet.w, plot.w, 0);
-    session_move(s, 6, layout->ruler.y + 10); // the triangle
+    session_move(s, layout->value_axis.x + 6, layout->ruler.y + 10); // the triangle
     hands(s, "click");
     assert_near(layout->plot.h, plot.h, 0);
 }

@@ -115,8 +115,7 @@ static const struct screen {
     {"one knot", "click knot(sway,1)", open_poles, false, false, true},
     {"all knots", "click knot(sway,0); key Ctrl+A", NULL, false, false, true},
     {"history",
-     "click preset.heavy; click preset.whip; key Ctrl+Z; click section.feel; click section.knot; click "
-     "section.splines;"
+     "click preset.heavy; click preset.whip; key Ctrl+Z; click section.feel; click section.knot;"
      "click section.spline; click section.rigs; click section.tail; click section.history; click section.scene",
      NULL, false, false, true},
     {"message", LONG_PATH, open_message, true, true, true},
@@ -229,7 +228,7 @@ static void check_inspector(struct session *s, int selected, int page)
     sections(s->editor)->offset = 150.0f * (float)page;
     clear(s);
     inspector_show(s->editor->inspector, false);
-    assert_true(count_texts(s, layout_of(s->editor)->inspector, spline->name) > 15);
+    assert_true(count_texts(s, layout_of(s->editor)->window, spline->name) > 15);
 }
 
 /// The figures and the scene's name may give way to a long message.

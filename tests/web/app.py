@@ -19,7 +19,7 @@ from wait import until
 FOLDER, OUT = map(pathlib.Path, sys.argv[1:3])
 MODELS = pathlib.Path(__file__).parents[2] / 'assets/models'
 STILL = {'color_scheme': 'light', 'reduced_motion': 'reduce'}
-KNOT, LOWER = (125, 449), (125, 530)  # the first knot of "sway" at 1280 × 720
+KNOT, LOWER = (244, 449), (244, 530)  # the first knot of "sway" at 1280 × 720
 FOUND, PANELS = (150, 210), (60, 300, 250, 420)  # on a phone of 390 × 844: the first command found; x, y, width, height of the curves and settings
 HOME, RECOVERY = '/home/web_user', '/home/web_user/.local/state/wiggly/recovery-1'
 STAGE = (340, 20, 650, 370)  # x, y, width, height: beside the card
@@ -503,7 +503,7 @@ def phone(browser, url):
     start = scene(page)
     more, undo, type_key = (page.evaluate(f'''(box => [box.x + box.width / 2, box.y + box.height / 2])(
         document.querySelector('#bar [data-{which}]').getBoundingClientRect())''') for which in ('key=F3', 'key=Z', 'does=type'))
-    for what, place, by in (('a knot', (74, 328), (0, 40)), ('the tail', (182, 128), (-40, 30)), ('the body', (258, 160), (-40, 0))):
+    for what, place, by in (('a knot', (107, 328), (0, 40)), ('the tail', (182, 128), (-40, 30)), ('the body', (258, 160), (-40, 0))):
         swipe(page, place, by)
         told(page, f'{what} dragged by a finger', lambda text: text.startswith('*'))
         swipe(page, undo)

@@ -36,7 +36,8 @@ enum place {
     ON_INSPECTOR = 32,
     IN_STAGE_MENU = 64, ///< only a right-click on the stage lists it
     IN_EXAMPLES = 128,  ///< only the list of examples has it
-    IN_CURVES_MENU = 256
+    IN_CURVES_MENU = 256,
+    ON_ROW = 512 ///< of the splines' list
 };
 
 /// What a command needs.

@@ -23,6 +23,7 @@ void core_open(struct core *core)
     selection_clear(&core->focus.selection);
     selection_clear(&core->view.hidden);
     selection_clear(&core->view.solo);
+    selection_clear(&core->view.folded);
     core->input.drag = (struct drag){0};
     core->input.hover = (struct hover){0};
     core->step.edited = (struct edited){0};
@@ -99,22 +100,23 @@ struct seen {
     struct bone_selection bone;
     struct plotted plot;
     struct camera camera;
-    int count;
-    unsigned selected[]; ///< ids of knots
+    struct selection selection; ///< in `bits`
+    uint64_t bits[];
 };
 
 /// What is selected and in sight now. The caller frees it.
 static struct seen *see(const struct core *core)
 {
-    struct seen *seen = need_zeroed(1, sizeof *seen + (size_t)selected_count(core) * sizeof seen->selected[0]);
+    const struct selection *selection = &core->focus.selection;
+    struct seen *seen = need_zeroed(1, sizeof *seen + selection->capacity / 8);
     seen->active_id = core->focus.active_id;
     seen->limb = core->focus.limb;
     seen->pin = core->focus.pin;
     seen->bone = core->focus.bone;
     seen->plot = core->view.plot;
     seen->camera = core->view.camera;
-    for (struct knot_place at = SELECTED_START; selected_next(core, &at);)
-        seen->selected[seen->count++] = knot_at(core->document, at)->id;
+    seen->selection = (struct selection){seen->bits, selection->capacity};
+    if (selection->bits) memcpy(seen->bits, selection->bits, selection->capacity / 8);
     return seen;
 }
 
@@ -131,8 +133,7 @@ static void see_again(struct core *core, bool undone)
     core->view.plot = seen->plot;
     core->view.camera = seen->camera;
     core->view.returned = true;
-    selection_clear(&core->focus.selection);
-    for (int i = 0; i < seen->count; i++) selection_set(&core->focus.selection, seen->selected[i], true);
+    selection_copy(&core->focus.selection, &seen->selection);
 }
 
 void core_end(struct core *core)
@@ -376,6 +377,19 @@ void core_choose(struct core *core, int spline)
     core_activate(core, spline);
 }
 
+bool core_is_chosen(const struct core *core, int spline)
+{
+    const unsigned id = core->document->splines[spline]->id;
+    return id == core->focus.active_id || selection_has(&core->focus.selection, id);
+}
+
+int core_chosen_count(const struct core *core)
+{
+    int count = 0;
+    for (int s = 0; s < core->document->spline_count; s++) count += core_is_chosen(core, s);
+    return count;
+}
+
 wiggly_desc core_describe(const struct core *core, int spline, bool cubic, wiggly_knot **knots)
 {
     struct evaluation evaluation = *core->evaluation;
@@ -409,13 +423,6 @@ bool spline_list_shows(const struct core *core, int spline)
     while (solo < document->spline_count && !selection_has(&core->view.solo, document->splines[solo]->id)) solo++;
     return solo < document->spline_count ? selection_has(&core->view.solo, id)
                                          : !selection_has(&core->view.hidden, id);
-}
-
-void spline_list_flip(struct core *core, struct selection *set, int spline)
-{
-    const unsigned id = core->document->splines[spline]->id;
-    selection_set(set, id, !selection_has(set, id));
-    core->view.visibility++;
 }
 
 const struct spline *spline_list_seen(const struct core *core)
@@ -487,10 +494,11 @@ void selection_copy(struct selection *to, const struct selection *from)
     if (from->bits) memcpy(to->bits, from->bits, from->capacity / 8);
 }
 
-/// Hidden knots are not edited, except the active spline's.
+/// Locked knots are not edited, and hidden ones only if they are the active spline's.
 static bool is_edited(const struct core *core, int spline)
 {
-    return spline == core->focus.active || spline_list_shows(core, spline);
+    return !core->document->splines[spline]->locked &&
+           (spline == core->focus.active || spline_list_shows(core, spline));
 }
 
 bool selected_next(const struct core *core, struct knot_place *at)
@@ -621,10 +629,7 @@ uint64_t core_merge_key(const struct core *core, uint64_t kind)
 {
     uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
     key = hash_bytes(key, &core->focus.active, sizeof core->focus.active);
-    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
-        unsigned id = knot_at(core->document, at)->id;
-        key = hash_bytes(key, &id, sizeof id);
-    }
+    key = hash_bytes(key, core->focus.selection.bits, core->focus.selection.capacity / 8);
     return key ? key : 1;
 }
 

@@ -70,8 +70,10 @@ double core_round(double value, double resolution);
 uint32_t spline_list_color(const struct document *document, int spline);
 /// Whether the curves show a spline: a solo one if any is, else one that is not hidden.
 bool spline_list_shows(const struct core *core, int spline);
-/// Flips a spline in core's `solo` or `hidden`.
-void spline_list_flip(struct core *core, struct selection *set, int spline);
+/// Whether edits of splines act on one: the active one, and those that are selected in the list.
+bool core_is_chosen(const struct core *core, int spline);
+/// How many that are.
+int core_chosen_count(const struct core *core);
 /// The active spline if the curves show it, else NULL.
 const struct spline *spline_list_seen(const struct core *core);
 

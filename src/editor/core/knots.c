@@ -16,11 +16,17 @@ void core_select_only(struct core *core, unsigned id)
     selection_set(&core->focus.selection, id, true);
 }
 
+static const char locked[] = "%.200s is locked: open its lock in the list first.";
+
 /// Inserts and selects a knot, or selects the one at that sample.
 static void insert_at(struct core *core, const struct knot *knot)
 {
     const struct document *document = core->document;
     int sample = document_sample(document, knot->frame);
+    if (core_active_spline(core)->locked) {
+        core_message(core, false, locked, core_active_spline(core)->name);
+        return;
+    }
     int at = spline_find_knot(document, core_active_spline(core), sample);
     if (at < 0) {
         if (!core_step(core, knot->has_phase ? "Insert pose" : "Insert knot", 0)) return;
@@ -167,7 +173,7 @@ void core_select_all(struct core *core, int all_splines)
     selection_clear(&core->focus.selection);
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
-        if (all_splines ? !spline_list_shows(core, s) : s != core->focus.active) continue;
+        if (spline->locked || (all_splines ? !spline_list_shows(core, s) : s != core->focus.active)) continue;
         for (int k = 0; k < spline->knot_count; k++) selection_set(&core->focus.selection, spline->knots[k].id, true);
     }
     selected_activate(core);
@@ -184,7 +190,7 @@ static int beside(const struct document *document, const struct spline *spline, 
 const struct knot *core_select_neighbour(struct core *core, int direction)
 {
     const struct spline *spline = core_active_spline(core);
-    if (!spline || spline->knot_count == 0) return NULL;
+    if (!spline || spline->locked || spline->knot_count == 0) return NULL;
     int single = selection_single(&core->focus.selection, spline);
     int next = single + direction;
     if (single < 0) next = beside(core->document, spline, core->view.playback.position, direction);
@@ -362,7 +368,9 @@ void core_mirror_knots(struct core *core, int unused)
 /// Inserts a shifted copy of a knot in the open step.
 static bool insert_copy(struct core *core, int spline, const struct knot *knot, double shift)
 {
+    const struct spline *to = core->document->splines[spline];
     struct knot copy = *knot;
+    if (to->locked) return fail(&core->step.error, ERROR_INPUT, locked, to->name);
     copy.id = 0;
     copy.frame += shift;
     return core_put_knot(core, spline, &copy);

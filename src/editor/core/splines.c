@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 void core_activate_neighbour(struct core *core, int direction)
 {
@@ -17,10 +18,52 @@ void core_activate_neighbour(struct core *core, int direction)
     if (count > 0) core_choose(core, ((core->focus.active + direction) % count + count) % count);
 }
 
-void spline_list_move(struct core *core, int spline, int to)
+bool spline_list_together(const struct document *document, int a, int b)
 {
-    if (to == spline || to < 0 || to >= core->document->spline_count) return;
-    if (core_step(core, "Reorder splines", 0)) edit_spline_move(core->document, spline, to, &core->step.error);
+    if (a < 0 || b < 0 || a >= document->spline_count || b >= document->spline_count) return false;
+    const char *one = document->splines[a]->folder, *other = document->splines[b]->folder;
+    return one && other && strcmp(one, other) == 0;
+}
+
+/// Moves one of the chosen splines in an open step.
+static void place(struct core *core, int spline, int to, const char *folder)
+{
+    if (edit_spline_move(core->document, spline, to, &core->step.error))
+        edit_spline_folder(core->document, to, folder ? folder : "", &core->step.error);
+}
+
+void spline_list_place(struct core *core, int to, const char *folder)
+{
+    if (to < 0 || to > core->document->spline_count || !core_step(core, "Reorder splines", 0)) return;
+    for (int s = to - 1, at = to; s >= 0; s--) { // from above, the last one first
+        if (core_is_chosen(core, s)) place(core, s, --at, folder);
+    }
+    for (int s = to, at = to; s < core->document->spline_count; s++) {
+        if (core_is_chosen(core, s)) place(core, s, at++, folder);
+    }
+}
+
+bool spline_list_acts(const struct core *core, int first, int end, int spline)
+{
+    const bool among = spline >= first && spline < end;
+    return among || (end == first + 1 && core_is_chosen(core, first) && core_is_chosen(core, spline));
+}
+
+void spline_list_flip(struct core *core, enum list_change change, int first, int end)
+{
+    struct selection *set = change == LIST_SOLO ? &core->view.solo : &core->view.hidden;
+    const struct spline *of = core->document->splines[first];
+    const bool locks = change == LIST_LOCK, on = locks ? !of->locked : !selection_has(set, of->id);
+    if (locks && !core_step(core, on ? "Lock" : "Unlock", 0)) return;
+    for (int s = 0; s < core->document->spline_count; s++) {
+        if (!spline_list_acts(core, first, end, s)) continue;
+        const struct spline *spline = core->document->splines[s];
+        for (int k = 0; k < spline->knot_count && locks; k++)
+            selection_set(&core->focus.selection, spline->knots[k].id, false);
+        if (!locks) selection_set(set, spline->id, on);
+        if (locks) edit_spline_lock(core->document, s, on, &core->step.error);
+    }
+    core->view.visibility++;
 }
 
 double spline_list_present(const struct core *core, int spline, enum parameter parameter)
@@ -33,12 +76,12 @@ double spline_list_present(const struct core *core, int spline, enum parameter p
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
 
-/// Stops something from following the active spline.
+/// Stops something from following a spline.
 static bool release(struct core *core, const struct reference *reference)
 {
     struct document *document = core->document;
     const int owner = reference->owner, which = reference->which;
-    const wiggly_value now = evaluation_at(core->evaluation, core->focus.active, core->view.playback.position);
+    const wiggly_value now = evaluation_at(core->evaluation, reference->spline, core->view.playback.position);
     switch (reference->kind) {
     case REFERENCE_TRACK: {
         const enum parameter parameter = (enum parameter)which;
@@ -57,39 +100,78 @@ static bool release(struct core *core, const struct reference *reference)
     return false;
 }
 
-static void remove_active(void *of, int answer)
+/// The last spline and the last reference go first, so that the indices of the others stay valid.
+static void remove_chosen(void *of, int answer)
 {
     struct core *core = of;
     (void)answer;
-    if (!core_active_spline(core) || !core_step(core, "Delete spline", 0)) return;
-
-    // The last reference goes first, so that the others' indices stay valid.
-    bool good = true;
-    while (good && reference_count(core->document, core->focus.active) > 0) {
-        struct reference last = {0};
-        for (struct reference reference = {0}; reference_next(core->document, &reference);) {
-            if (reference.spline == core->focus.active) last = reference;
+    bool good = core_active_spline(core) && core_step(core, "Delete spline", 0);
+    for (int s = core->document->spline_count - 1; s >= 0 && good; s--) {
+        if (!core_is_chosen(core, s)) continue;
+        while (good && reference_count(core->document, s) > 0) {
+            struct reference last = {0};
+            for (struct reference reference = {0}; reference_next(core->document, &reference);) {
+                if (reference.spline == s) last = reference;
+            }
+            good = release(core, &last);
         }
-        good = release(core, &last);
+        good = good && edit_spline_remove(core->document, s, &core->step.error);
     }
-    if (good) edit_spline_remove(core->document, core->focus.active, &core->step.error);
     core_refresh(core); // the rest of this event needs an active spline
 }
 
-/// Deletes the active spline; asks if something follows it.
+/// Deletes the chosen splines; asks if something follows them.
 static void ask_remove(struct core *core, const struct spline *active)
 {
     static const struct answer answers[] = {{"dialog.delete", "Delete", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
-    const int count = reference_count(core->document, core->focus.active);
+    int count = 0;
+    for (int s = 0; s < core->document->spline_count; s++)
+        count += core_is_chosen(core, s) ? reference_count(core->document, s) : 0;
     if (count == 0) {
-        remove_active(core, 0);
+        remove_chosen(core, 0);
         return;
     }
-    struct question *question = core_ask(core, answers, 2, remove_active);
-    snprintf(question->title, sizeof question->title, "%.*s is used in %d place%s", name_fit(active->name, 200),
-             active->name, count, count == 1 ? "" : "s");
+    struct question *question = core_ask(core, answers, 2, remove_chosen);
+    snprintf(question->title, sizeof question->title, "%.*s %s used in %d place%s", name_fit(active->name, 200),
+             active->name, core_chosen_count(core) > 1 ? "and others are" : "is", count, count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note,
-             "Parameters that follow it keep their value at the playhead. Channels that it drives are deleted.");
+             "Parameters that follow keep their value at the playhead. Channels that are driven are deleted.");
+}
+
+/// Inserts copies of the chosen splines after them, and chooses those.
+static void copy_chosen(struct core *core)
+{
+    struct selection copies = {0};
+    if (!core_step(core, "Duplicate", 0)) return;
+    for (int s = core->document->spline_count - 1; s >= 0; s--) {
+        if (core_is_chosen(core, s) && edit_spline_copy(core->document, s, &core->step.error))
+            selection_set(&copies, core->document->splines[s + 1]->id, true);
+    }
+    selection_copy(&core->focus.selection, &copies);
+    free(copies.bits);
+    core_turn_to(core, document_find_spline_id(core->document, core->focus.active_id) + 1);
+}
+
+/// Moves the chosen splines by a row, into a folder if they come to lie within.
+static void move_chosen(struct core *core, int direction)
+{
+    const struct document *document = core->document;
+    int at = direction < 0 ? 0 : document->spline_count - 1; // the first of them, or the last
+    while (!core_is_chosen(core, at)) at -= direction;
+    const int next = at + direction, to = direction < 0 ? next : next + 1;
+    const bool within = spline_list_together(document, at, next) || spline_list_together(document, to - 1, to);
+    if (next >= 0 && next < document->spline_count)
+        spline_list_place(core, to, within ? document->splines[next]->folder : NULL);
+}
+
+/// Puts the chosen splines into a folder called like the first of them; or if that is in one, takes them out, behind it.
+static void change_folder(struct core *core)
+{
+    const struct document *document = core->document;
+    int first = 0, to;
+    while (!core_is_chosen(core, first)) first++;
+    for (to = first; spline_list_together(document, first, to);) to++;
+    spline_list_place(core, to, to > first ? NULL : document->splines[first]->name);
 }
 
 void spline_list_change(struct core *core, int change)
@@ -103,14 +185,13 @@ void spline_list_change(struct core *core, int change)
         if (core_step(core, "Add spline", 0) && edit_spline_add(document, -1, NULL, &first, &core->step.error))
             core_activate(core, document->spline_count - 1);
     }
-    if (change == LIST_COPY && spline && core_step(core, "Duplicate spline", 0) &&
-        edit_spline_copy(document, active, &core->step.error))
-        core_activate(core, active + 1);
-    if (change == LIST_REMOVE && spline) ask_remove(core, spline);
-    if (change == LIST_UP || change == LIST_DOWN)
-        spline_list_move(core, active, active + (change == LIST_UP ? -1 : 1));
-    if (change == LIST_SOLO) spline_list_flip(core, &core->view.solo, active);
-    if (change == LIST_HIDE) spline_list_flip(core, &core->view.hidden, active);
+    if (!spline) return;
+    if (change == LIST_COPY) copy_chosen(core);
+    if (change == LIST_REMOVE) ask_remove(core, spline);
+    if (change == LIST_UP || change == LIST_DOWN) move_chosen(core, change == LIST_UP ? -1 : 1);
+    if (change == LIST_FOLDER) change_folder(core);
+    if (change == LIST_SOLO || change == LIST_HIDE || change == LIST_LOCK)
+        spline_list_flip(core, (enum list_change)change, active, active + 1);
 }
 
 static void answer_fps(void *of, int answer)
@@ -194,11 +275,18 @@ void spline_list_range(struct core *core, int first, int last)
 int core_limb(const struct core *core)
 {
     const struct document *document = core->document;
+    if (core->focus.limb == 0 && core_chosen_count(core) > 1) return LIMB_ROWS;
     for (int r = 0; core->focus.limb != 0 && r < document->rig_count; r++) {
         if (document->rigs[r]->id == core->focus.limb)
-            return rig_is_moved(document->rigs[r], core->focus.active) ? r : -1;
+            return rig_is_moved(document->rigs[r], core->focus.active) ? r : LIMB_NONE;
     }
-    return -1;
+    return LIMB_NONE;
+}
+
+bool core_is_felt(const struct core *core, int limb, int spline)
+{
+    if (limb == LIMB_ROWS) return core_is_chosen(core, spline);
+    return limb >= 0 && rig_is_moved(core->document->rigs[limb], spline);
 }
 
 double core_in_step(double other, double before, double now)
@@ -218,8 +306,8 @@ bool core_set_felt(struct core *core, int limb, enum parameter parameter, double
     for (int s = 0; s < document->spline_count && done; s++) {
         const struct spline *spline = document->splines[s];
         const bool is_active = s == core->focus.active;
-        const bool changes = is_active || (is_shared && limb >= 0 && rig_is_moved(document->rigs[limb], s) &&
-                                           spline_uses(spline, parameter, false));
+        const bool changes =
+            is_active || (is_shared && core_is_felt(core, limb, s) && spline_uses(spline, parameter, false));
         if (param_follows(&spline->parameter[parameter]) || !changes) continue;
         double next = value;
         if (!is_active && !alike && !param_follows(&before))
@@ -236,11 +324,15 @@ bool core_set_lag(struct core *core, int limb, struct channel_place at, const st
     int count;
     const double before = angles_largest(&rig_channels(document->rigs[at.rig], &count)[at.channel].lag);
     bool done = edit_angles(document, at, ANGLE_LAG, lag, error);
-    for (int c = 0; c < count && limb == at.rig && done; c++) {
-        struct angles other = rig_channels(document->rigs[limb], &count)[c].lag;
-        if (c == at.channel || rig_point_input(document->rigs[limb], c) < 0) continue;
-        angles_scale(&other, core_in_step(angles_largest(&other), before, angles_largest(lag)));
-        done = edit_angles(document, (struct channel_place){limb, c}, ANGLE_LAG, &other, error);
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct channel *channels = rig_channels(document->rigs[r], &count);
+        for (int c = 0; c < count && done; c++, channels = rig_channels(document->rigs[r], &count)) {
+            const bool felt = limb == LIMB_ROWS ? core_is_chosen(core, channels[c].spline) : r == limb && r == at.rig;
+            struct angles other = channels[c].lag;
+            if (!felt || (r == at.rig && c == at.channel) || rig_point_input(document->rigs[r], c) < 0) continue;
+            angles_scale(&other, core_in_step(angles_largest(&other), before, angles_largest(lag)));
+            done = edit_angles(document, (struct channel_place){r, c}, ANGLE_LAG, &other, error);
+        }
     }
     return done;
 }

@@ -7,11 +7,28 @@
 /// Activates the next (1) or previous (-1) spline, cyclically.
 void core_activate_neighbour(struct core *core, int direction);
 
-/// Appends a spline with a knot at the playhead, or inserts a copy after the active one, and activates it; removes the active one, and asks
-/// if something follows it; moves it in the list; shows it alone, or hides it.
-enum list_change { LIST_ADD, LIST_COPY, LIST_REMOVE, LIST_UP, LIST_DOWN, LIST_SOLO, LIST_HIDE };
+/// Appends a spline with a knot at the playhead and activates it. The others act on the chosen splines: copies them, removes them (and asks if
+/// something follows them), moves them in the list, flips what shows and locks them, puts them into a folder or takes them out.
+enum list_change {
+    LIST_ADD,
+    LIST_COPY,
+    LIST_REMOVE,
+    LIST_UP,
+    LIST_DOWN,
+    LIST_FOLDER,
+    LIST_SOLO,
+    LIST_HIDE,
+    LIST_LOCK
+};
 void spline_list_change(struct core *core, int change);
-void spline_list_move(struct core *core, int spline, int to);
+/// Moves the chosen splines before the one at an index, into a folder (NULL: none).
+void spline_list_place(struct core *core, int to, const char *folder);
+/// The row of splines first … end − 1, a folder's or one. Whether it acts on a spline, too: that is among them, or selected as the one is.
+bool spline_list_acts(const struct core *core, int first, int end, int spline);
+/// Shows that row's splines alone, hides or locks them; or no longer.
+void spline_list_flip(struct core *core, enum list_change change, int first, int end);
+/// Whether two splines, which may lie outside the list, are in one folder.
+bool spline_list_together(const struct document *document, int a, int b);
 /// Value of a track at the playhead, within the parameter's limits.
 double spline_list_present(const struct core *core, int spline, enum parameter parameter);
 /// Sets the frame rate; asks whether knots keep their frames or seconds.
@@ -27,13 +44,17 @@ void core_close_curves(struct core *core, int unused);
 /// Sets the frequency and damping that explain the knots best, or second best if those are set already.
 void core_find_frequency(struct core *core, int unused);
 
-/// The rig that Feel acts on as a whole: the one chosen last, while the active spline bends or drives it; -1: the active spline alone.
+enum { LIMB_NONE = -1, LIMB_ROWS = -2 };
+/// What Feel acts on, whichever was chosen last: LIMB_ROWS, several rows of the list; a rig, while the active spline bends or drives it; or LIMB_NONE,
+/// the active spline alone.
 int core_limb(const struct core *core);
-/// Sets a parameter of the active spline. Frequency, damping and wind-up also change for the limb's (-1: none) other splines that use
+/// Whether a spline is one of a limb's.
+bool core_is_felt(const struct core *core, int limb, int spline);
+/// Sets a parameter of the active spline. Frequency, damping and wind-up also change for the limb's other splines that use
 /// them: to the same value if `alike`, else by core_in_step(). What follows a spline still does. Edits.
 bool core_set_felt(struct core *core, int limb, enum parameter parameter, double value, bool alike,
                    struct error *error);
-/// Sets a channel's lag, and scales those of the limb's other channels that bend. Edits.
+/// Sets a channel's lag, and scales those of the limb's other channels that bend, of rows those that they drive. Edits.
 bool core_set_lag(struct core *core, int limb, struct channel_place at, const struct angles *lag,
                   struct error *error);
 /// A number changed by the factor that took another from `before` to `now`. From 0 there is none: a 0 becomes `now`, others stay.

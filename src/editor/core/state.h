@@ -21,6 +21,7 @@ enum { STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
 /// The panels' rectangles in logical pixels, from core_layout().
 struct layout {
     struct rect window, stage, curves, inspector, status;
+    struct rect list;       ///< the splines' list, left of the curves
     struct rect ruler;      ///< frame numbers above the plot
     struct rect sheet;      ///< the dope sheet's rows below the ruler; empty if closed
     struct rect value_axis; ///< numbers left of the plot
@@ -297,10 +298,10 @@ struct step {
 
 /// What keys and commands act on.
 struct focus {
-    int active;         ///< spline, or -1
-    unsigned active_id; ///< its id, to find it when the list changes
-    unsigned limb;      ///< id of the rig chosen last, see core_limb(); 0: a spline was
-    struct selection selection;
+    int active;                 ///< spline, or -1
+    unsigned active_id;         ///< its id, to find it when the list changes
+    unsigned limb;              ///< id of the rig chosen last, see core_limb(); 0: a spline was
+    struct selection selection; ///< of knots, and of splines in the list
     struct pin_selection pin;
     struct bone_selection bone;
     struct bone_pick pick; ///< until the next edit
@@ -340,6 +341,7 @@ struct view {
     enum look look;
     bool on[SWITCH_COUNT];
     struct selection hidden, solo; ///< sets of spline ids
+    struct selection folded;       ///< the first splines of folders that the list shows closed
     unsigned visibility;           ///< grows when these change
     struct plotted plot;           ///< of the curves
     struct camera camera;          ///< of the stage

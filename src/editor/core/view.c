@@ -7,8 +7,9 @@
 
 // --- layout: stage above curves at the left, inspector at the right, in upright windows at the bottom; status line below
 
-static const float RULER_HEIGHT = 22, AXIS_WIDTH = 52, LABEL_WIDTH = 76, DIVIDER_REACH = 4;
+static const float RULER_HEIGHT = 22, AXIS_WIDTH = 52, MARGIN = 12, DIVIDER_REACH = 4;
 static const float MIN_STAGE = 120, MIN_CURVES = 140, MIN_LEFT = 480, MIN_INSPECTOR = 240, MAX_INSPECTOR = 480;
+static const float LIST = 124, NARROW = 560; ///< width of the splines' list; narrower curves have its colours alone
 static const float UPRIGHT = 800; ///< narrower windows that are higher than wide have the inspector at the bottom
 static const float WHOLE = 800;   ///< inspector_width that would take all of their height
 
@@ -32,13 +33,15 @@ void core_layout(struct core *core)
     l->curves = (struct rect){0, stage, left, fmaxf(height - stage, 1)};
     l->inspector = upright ? (struct rect){0, height, left, below} : (struct rect){left, 0, right, height};
     l->status = (struct rect){0, all, l->window.w, theme_row()};
-    float width = fmaxf(left - AXIS_WIDTH - LABEL_WIDTH, 16);
+    const float list = left < NARROW ? theme_row() + 6 : LIST, axis = list + AXIS_WIDTH;
+    float width = fmaxf(left - axis - MARGIN, 16);
     float sheet = fminf(l->sheet_height, fmaxf(l->curves.h - RULER_HEIGHT - 17, 0));
     float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1 - sheet, 16);
-    l->ruler = (struct rect){AXIS_WIDTH, stage + 1, width, RULER_HEIGHT};
-    l->sheet = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT, width, sheet};
-    l->plot = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT + sheet, width, plot};
-    l->value_axis = (struct rect){0, l->plot.y, AXIS_WIDTH, plot};
+    l->list = (struct rect){0, stage + 1 + RULER_HEIGHT, list, sheet + plot};
+    l->ruler = (struct rect){axis, stage + 1, width, RULER_HEIGHT};
+    l->sheet = (struct rect){axis, stage + 1 + RULER_HEIGHT, width, sheet};
+    l->plot = (struct rect){axis, stage + 1 + RULER_HEIGHT + sheet, width, plot};
+    l->value_axis = (struct rect){list, l->plot.y, AXIS_WIDTH, plot};
     l->open = l->stage;
 
     // Presenting offsets the sliding panels and gives the stage the window.
@@ -52,7 +55,7 @@ void core_layout(struct core *core)
     l->plot.w += across;
     l->sheet.w += across;
     l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
-    struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
+    struct rect *const lower[] = {&l->curves, &l->list, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
     l->stage = presenter->shares || upright ? l->open : l->window; // upright, nothing of it would be left
     for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
     if (upright) l->inspector.y += down;

@@ -426,7 +426,7 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
         "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)";
     const struct spline *spline = core->document->splines[of];
     float best = reach;
-    for (int k = curves_knot_from(core, spline, xy[0] - reach); k < spline->knot_count; k++) {
+    for (int k = curves_knot_from(core, spline, xy[0] - reach); k < spline->knot_count && !spline->locked; k++) {
         const struct knot *knot = &spline->knots[k];
         float at = curves_knot_x(core, knot);
         if (at > xy[0] + reach) break;
@@ -481,6 +481,9 @@ const struct thing thing_seam = {
 
 static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }
 
+/// The inspector lays out the splines' list; this is for its menu and F1.
+static const struct thing list_row = {.place = ON_ROW};
+
 struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
     struct hover hover = ruler_pins_hover(core, x, y);
@@ -490,11 +493,12 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     if (rect_contains(core->view.layout.ruler, x, y)) hover.thing = &thing_ruler;
     if (rect_contains(ruler_corner(core), x, y)) hover.thing = &thing_units;
     if (rect_contains(sheet_switch(core), x, y)) hover.thing = &thing_sheet;
+    if (rect_contains(core->view.layout.list, x, y)) hover.thing = &list_row;
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
     if (!rect_contains(core->view.layout.plot, x, y) || !spline) return hover;
     if (seam_place(curves, core, xy) && maths_hypotf(x - xy[0], y - xy[1]) <= WARNING_REACH)
         hover.thing = &thing_seam;
-    const bool seen = spline_list_seen(core) != NULL;
+    const bool seen = spline_list_seen(core) && !spline->locked;
     const float pointer[2] = {x, y};
     float best = core_reach(core, CURVES_HIT_RADIUS);
     if (seen) nearest_knot(curves, core, core->focus.active, pointer, best, &hover);
@@ -535,7 +539,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     best = CURVE_REACH;
     for (int i = 0; i < core->document->spline_count; i++) {
         const int s = i == 0 ? core->focus.active : i <= core->focus.active ? i - 1 : i;
-        if (!spline_list_shows(core, s)) continue;
+        if (!spline_list_shows(core, s) || core->document->splines[s]->locked) continue;
         const wiggly_value v = evaluation_at(core->evaluation, s, position);
         const float distance = fabsf(y - curves_y_of(curves, core, s, v.y + v.re));
         if (distance >= best) continue;
@@ -662,8 +666,8 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
             pins_visit(core, &rig->pins[pins_find_id(rig, hover.pin)]);
         }
         if (hover.thing == &thing_curve) core_choose(core, hover.spline);
-        return;
     }
+    if (event->button == BUTTON_RIGHT || hover.thing == &list_row) return;
     if (hover.thing != &thing_pin_time && hover.thing != &thing_ruler) pins_clear(core);
     if (hover.thing) {
         hover.thing->press(curves, core, &hover, event);
@@ -699,7 +703,7 @@ static void take_inside(const struct curves *curves, struct core *core, int s)
 {
     const struct rect box = box_rect(&core->input.drag);
     const struct spline *spline = core->document->splines[s];
-    for (int k = curves_knot_from(core, spline, box.x); k < spline->knot_count; k++) {
+    for (int k = curves_knot_from(core, spline, box.x); k < spline->knot_count && !spline->locked; k++) {
         const struct knot *knot = &spline->knots[k];
         const float x = curves_knot_x(core, knot), y = curves_knot_y(curves, core, s, knot);
         if (x >= box.x + box.w) break;

@@ -729,8 +729,8 @@ static float row_y(const struct core *core, int row)
 
 struct rect sheet_area(const struct core *core)
 {
-    const struct rect *sheet = &core->view.layout.sheet, *panel = &core->view.layout.curves;
-    return (struct rect){panel->x, sheet->y, panel->w, sheet->h};
+    const struct rect *sheet = &core->view.layout.sheet, *axis = &core->view.layout.value_axis;
+    return (struct rect){axis->x, sheet->y, sheet->x + sheet->w - axis->x, sheet->h};
 }
 
 struct rect sheet_switch(const struct core *core)
@@ -805,7 +805,7 @@ void sheet_show(const struct curves *curves, struct core *core)
 {
     const struct document *document = core->document;
     const struct dope_sheet *sheet = &curves->sheet;
-    const struct rect *area = &core->view.layout.sheet, *panel = &core->view.layout.curves;
+    const struct rect *area = &core->view.layout.sheet, *axis = &core->view.layout.value_axis;
     // The triangle in the ruler's corner points down while the sheet is open.
     const struct rect r = sheet_switch(core);
     const float x = r.x + 8, y = r.y + r.h / 2, a = 3.5f;
@@ -820,7 +820,7 @@ void sheet_show(const struct curves *curves, struct core *core)
         const struct spline *spline = document->splines[s];
         const bool active = s == core->focus.active,
                    hot = core->input.hover.thing == &thing_row && core->input.hover.spline == s;
-        const float middle = row_y(core, row), left = area->x + area->w + 6;
+        const float middle = row_y(core, row);
         const uint32_t color = spline_list_color(document, s);
         const struct rect band = {area->x, middle - ROW / 2.0f, area->w, ROW};
         if (active || hot) drawlist_rect(&core->list, band, theme_fade(theme()->text, active ? 0.07f : 0.035f));
@@ -833,7 +833,7 @@ void sheet_show(const struct curves *curves, struct core *core)
         }
         knots_show(curves, core, s, middle);
         drawlist_set_clip(&core->list, clip);
-        drawlist_text_fit(&core->list, left, roundf(middle + 4), panel->x + panel->w - 6 - left,
+        drawlist_text_fit(&core->list, axis->x + 4, roundf(middle + 4), axis->w - 13,
                           active ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL,
                           theme_readable(color, theme()->panel, 4.5f), spline->name);
     }

@@ -1,4 +1,4 @@
-/// Draws the curves panel: polylines of the solved splines, grid, ruler, knots, slope handles, names, playhead.
+/// Draws the curves panel: polylines of the solved splines, grid, ruler, knots, slope handles, playhead.
 #include "base/hash.h"
 #include "editor/core/command.h"
 #include "editor/core/core.h"
@@ -536,9 +536,7 @@ const struct thing thing_pin_time = {
     .find = find_pin_time,
     .missing = "that pin is not on the visible part of the ruler"};
 
-// Lines, knots and names.
-
-enum { MAX_LABELS = CURVES_MAX_OTHERS + 2 };
+// Lines and knots.
 
 static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 7.125f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
 static const double FIRM_LENGTH = 48,
@@ -546,17 +544,8 @@ static const double FIRM_LENGTH = 48,
 static const float MARK_STEP = 12;      ///< columns between marks in a band
 static const float MARK_RADIUS = 3.5f;  ///< on the dope sheet
 static const float CROWDED = 3;         ///< pixels; closer knots share one mark
-static const float LABEL_STEP = 15;
 static const float FAN_NEAR = 0.24f,
                    FAN_STEP = 0.03f; ///< opacity of the first lagged copy, and how much each further one loses
-
-/// A name beside the right end of its curve.
-struct label {
-    float y;
-    enum font font;
-    uint32_t color;
-    const char *text;
-};
 
 static void show_line(struct core *core, const float *xy, int count, bool band, float width, uint32_t color)
 {
@@ -565,6 +554,13 @@ static void show_line(struct core *core, const float *xy, int count, bool band, 
     } else {
         drawlist_line(&core->list, xy, count, width, color);
     }
+}
+
+/// A spline's colour, fainter if it is locked.
+static uint32_t color_of(const struct document *document, int spline)
+{
+    const bool locked = spline >= 0 && spline < document->spline_count && document->splines[spline]->locked;
+    return theme_fade(spline_list_color(document, spline), locked ? 0.45f : 1);
 }
 
 static bool shows_imaginary(const struct core *core, const struct spline *spline)
@@ -580,7 +576,7 @@ static void show_lines(struct curves *curves, struct core *core)
     const struct spline *spline = spline_list_seen(core);
     const struct ghost *ghost = &curves->ghost;
     const struct rect plot = core->view.layout.plot;
-    uint32_t color = spline_list_color(document, core->focus.active);
+    uint32_t color = color_of(document, core->focus.active);
     float *xy = curves->scratch;
 
     // The frames in which the active curve is pushed to a selected knot, as a faint band; in a loop also round the seam.
@@ -609,7 +605,7 @@ static void show_lines(struct curves *curves, struct core *core)
         const bool hot =
             core->input.hover.thing == &thing_curve && core->input.hover.spline == cache->other_spline[i];
         show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
-                  theme_fade(spline_list_color(document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
+                  theme_fade(color_of(document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
     if (spline && cache->count > 1) {
         if (ghost->of && (core->input.drag.owner || core->cleaning.of) && ghost->count > 1) {
@@ -716,7 +712,7 @@ static void show_active_knots(const struct curves *curves, struct core *core)
     const struct document *document = core->document;
     const struct spline *spline = spline_list_seen(core);
     const struct rect *plot = &core->view.layout.plot;
-    uint32_t color = spline_list_color(document, core->focus.active);
+    uint32_t color = color_of(document, core->focus.active);
     if (!spline) return;
     const struct knot *knots = spline->knots;
     int k = curves_knot_from(core, spline, plot->x - HANDLE_REACH);
@@ -772,7 +768,7 @@ void knots_show(const struct curves *curves, struct core *core, int s, float row
 {
     const struct spline *spline = core->document->splines[s];
     const struct rect *plot = &core->view.layout.plot;
-    const uint32_t full = spline_list_color(core->document, s);
+    const uint32_t full = color_of(core->document, s);
     const bool on_sheet = !isnan(row);
     const float margin = on_sheet ? MARK_RADIUS + 1 : 0;
     float end = -INFINITY; // of the last mark
@@ -791,53 +787,6 @@ void knots_show(const struct curves *curves, struct core *core, int s, float row
                              : OTHER_RADIUS,
                   on_sheet || selected ? full : theme_fade(full, THEME_OTHERS), selected ? theme()->playhead : 0);
         if (is_hovered(core, knot)) hover_ring(&core->list, middle);
-    }
-}
-
-static void insert_label(struct label *labels, int *count, struct label label)
-{
-    int i = (*count)++;
-    for (; i > 0 && labels[i - 1].y > label.y; i--) labels[i] = labels[i - 1];
-    labels[i] = label;
-}
-
-/// A spline's colour with enough contrast for text.
-static uint32_t label_color(const struct core *core, int spline)
-{
-    return theme_readable(spline_list_color(core->document, spline), theme()->panel, 4.5f);
-}
-
-/// The names of the drawn curves, as many as there is room for, the active one always among them.
-static void show_labels(const struct curves *curves, struct core *core)
-{
-    const struct rect *plot = &core->view.layout.plot;
-    const struct curve_cache *cache = &curves->cache;
-    const struct spline *active = spline_list_seen(core);
-    const uint32_t color = label_color(core, core->focus.active);
-    struct label labels[MAX_LABELS];
-    int count = 0, end = cache->count - 1;
-    if (cache->count < 2) return;
-    const float top = plot->y + 8, bottom = plot->y + plot->h - 8;
-    const int most = (int)fmaxf(2, (bottom - top) / LABEL_STEP + 1);
-    if (active) insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
-    if (active && shows_imaginary(core, active))
-        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, color, "phase"});
-    for (int i = 0; i < cache->other_count && count < most; i++) {
-        int spline = cache->other_spline[i];
-        insert_label(labels, &count,
-                     (struct label){cache->others[i][end][1], FONT_LABEL, label_color(core, spline),
-                                    core->document->splines[spline]->name});
-    }
-
-    // Apart: downwards, then back up from the panel's bottom.
-    for (int i = 0; i < count; i++) labels[i].y = fmaxf(labels[i].y, i ? labels[i - 1].y + LABEL_STEP : top);
-    float limit = bottom;
-    for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
-    float x = plot->x + plot->w + 6;
-    float width = core->view.layout.curves.x + core->view.layout.curves.w - 6 - x;
-    for (int i = 0; i < count; i++) {
-        drawlist_text_fit(&core->list, x, roundf(labels[i].y + 4), width, labels[i].font, THEME_TEXT_SMALL,
-                          labels[i].color, labels[i].text);
     }
 }
 
@@ -874,29 +823,30 @@ void curves_show(struct curves *curves, struct core *core)
                       !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) &&
                       !pins_move_spline(document, core->focus.active);
     if (!visible || flat) {
-        const char *hint =
-            spline && !visible      ? "This spline is hidden. Click its eye in the list (F9: More) to show it."
-            : flat                  ? "Double-click to set the first knot."
-            : rigs_have_bones(core) ? "This scene has no splines. Click a bone and press Shift+J to let it swing."
-                                    : "This scene has no splines. Click + in the list on the right to add one.";
+        const char *hint = spline && !visible ? "This spline is hidden. Click its eye in the list to show it."
+                           : flat             ? "Double-click to set the first knot."
+                           : rigs_have_bones(core)
+                               ? "This scene has no splines. Click a bone and press Shift+J to let it swing."
+                               : "This scene has no splines. Click + in the list to add one.";
         const float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, hint)) / 2;
         drawlist_text(&core->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, hint);
     }
     drawlist_set_clip(&core->list, panel);
     sheet_show(curves, core);
 
-    // Notes above the curves' names: before (K), phase curve (V), normalised (N), no snapping (G).
+    // Notes above the list, or where that is narrow in the plot: before, look, phase curve, normalised, no snapping.
     const char *normal = core->view.on[SWITCH_NORMALISE] ? "fit" : "",
                *snap = core->view.on[SWITCH_SNAP] ? "" : "free";
-    const char *const words[] = {take_is_shown(core) ? "Before" : "", looks[core->view.look], normal, snap};
-    char text[40] = "", frame[32];
-    for (int i = 0; i < 4; i++) {
+    const char *phase = visible && shows_imaginary(core, visible) ? "phase" : "";
+    const char *const words[] = {take_is_shown(core) ? "Before" : "", looks[core->view.look], phase, normal, snap};
+    char text[48] = "", frame[32];
+    for (int i = 0; i < 5; i++) {
         if (*text && *words[i]) strcat(text, ", ");
         strcat(text, words[i]);
     }
-    drawlist_text(&core->list, ruler->x + ruler->w + 6, ruler->y + 15, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
-                  theme()->text, text);
-    show_labels(curves, core);
+    const bool wide = core->view.layout.list.w > 80;
+    drawlist_text(&core->list, wide ? core->view.layout.list.x + 10 : plot->x + 28, (wide ? ruler : plot)->y + 15,
+                  FONT_LABEL_BOLD, THEME_TEXT_SMALL, theme()->text, text);
 
     // The playhead comes last, so that playing redraws nothing before it.
     const struct rect tag = playhead_tag(core);

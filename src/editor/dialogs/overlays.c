@@ -378,8 +378,9 @@ static void show_headings(struct drawlist *list, const struct dialogs *dialogs, 
         enum place place;
         const char *title;
     } titles[] = {
-        {ON_CURVES, "Over the curves"}, {ON_KNOT, "Over a knot"}, {ON_TIME, "Over the ruler and the status line"},
-        {ON_STAGE, "Over the stage"},   {ON_PIN, "Over a pin"},   {ON_INSPECTOR, "In the inspector"}};
+        {ON_CURVES, "Over the curves"},    {ON_KNOT, "Over a knot"}, {ON_TIME, "Over the ruler and the status line"},
+        {ON_STAGE, "Over the stage"},      {ON_PIN, "Over a pin"},   {ON_INSPECTOR, "In the inspector"},
+        {ON_ROW, "Over the splines' list"}};
     const struct command_list *commands = &dialogs->commands;
     const struct command *rows[COMMANDS_MOST];
     const float left = page->box.x + HELP_MARGIN, top = y + GROUP_GAP / 2;

@@ -57,7 +57,6 @@ static const struct section {
 } sections[] = {
     {"section.feel", inspector_feel, .titled = inspector_feel_title, .needs = SPLINE},
     {"section.knot", inspector_knot, .titled = inspector_knot_title, .needs = SPLINE},
-    {"section.splines", inspector_splines, .title = "Splines"},
     {"section.spline", inspector_spline, .title = "Spline", .needs = SPLINE},
     {"section.rigs", inspector_rigs, .title = "Rigs", .shown = has_no_spline},
     {"section.model", inspector_model, .title = "Imported character", .needs = MODELS, .shown = has_bone},
@@ -72,7 +71,7 @@ static const struct section {
     {"section.history", inspector_history, .title = "History", .closed = true}, // last: its height changes
 };
 
-enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* always shown */ };
+enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 2 /* always shown */ };
 
 _Static_assert(SECTIONS <= (int)INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
 
@@ -95,7 +94,7 @@ static bool build_panel(struct inspector *in, struct rect area)
     struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
     in->list = NULL;
     ui_list_begin(ui, &in->sections, view);
-    const float offset = in->sections.offset;
+    const float offset = in->sections.offset, listed = in->lines.offset;
     inspector_find_rig(in);
     if (in->core->view.shows_poles) inspector_poles(in);
     for (int i = 0; i < SECTIONS; i++) {
@@ -145,9 +144,10 @@ static bool build_panel(struct inspector *in, struct rect area)
     int look = (int)in->core->view.look;
     if (ui_segments(ui, inspector_label(in, row, "compare with"), "look", looks, 3, &look))
         core_set_look(in->core, (enum look)look);
+    inspector_splines(in);
     inspector_offer(in, &inspector_add_list); // A works anywhere
     if (in->list) in->list->build(in, in->list);
-    return roundf(next.offset) == offset;
+    return roundf(next.offset) == offset && in->lines.offset == listed;
 }
 
 struct inspector *inspector_create(struct core *core)
@@ -164,7 +164,8 @@ const struct ui *inspector_ui(const struct inspector *in) { return &in->ui; }
 void inspector_reset(struct inspector *in)
 {
     ui_release(&in->ui);
-    in->sections.offset = 0;
+    in->sections.offset = in->lines.offset = 0;
+    in->listed = 0;
     in->rig = 0;
     in->selected = 0;
     in->model = 0;
@@ -172,14 +173,19 @@ void inspector_reset(struct inspector *in)
     memset(in->called, 0, sizeof in->called);
 }
 
+/// Whether a point is in the panel or on the splines' list.
+static bool contains(const struct inspector *in, float x, float y)
+{
+    const struct layout *layout = &in->core->view.layout;
+    return rect_contains(layout->inspector, x, y) || rect_contains(layout->list, x, y);
+}
+
 /// Whether the panel handles the event. Without keyboard focus here, keys go to the editor.
 static bool concerns(const struct inspector *in, const struct event *event)
 {
     const struct ui *ui = &in->ui;
-    struct rect area = in->core->view.layout.inspector;
     bool input = event->kind <= EVENT_WHEEL;
-    const bool inside =
-        rect_contains(area, event->x, event->y) && core_divider_at(in->core, event->x, event->y) == DIVIDER_NONE;
+    const bool inside = contains(in, event->x, event->y);
     if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
     if (ui->popup.id) return input;
     switch (event->kind) {
@@ -189,11 +195,11 @@ static bool concerns(const struct inspector *in, const struct event *event)
     case EVENT_TEXT:
         return ui->typing || ui->focus;
     case EVENT_POINTER:
-        return ui->held || rect_contains(area, event->x, event->y);
+        return ui->held || inside;
     case EVENT_BUTTON:
-        return ui->held || ui->typing || inside;
+        return ui->held || ui->typing || (inside && core_divider_at(in->core, event->x, event->y) == DIVIDER_NONE);
     case EVENT_WHEEL:
-        return rect_contains(area, event->x, event->y);
+        return inside;
     default:
         return false;
     }

@@ -592,12 +592,14 @@ static bool set_drive_number(struct inspector *in, int which, double number, str
     const double lag = before->lag;
     struct drive drive = *before;
     number_put(&drive_rows[which], &drive, number);
-    const int all = drive.lag != lag && inspector_limb(in) == owner ? characters_selected(in->core)->drive_count : 0;
+    const int limb = inspector_limb(in), felt = limb == owner || limb == LIMB_ROWS;
+    const int all = drive.lag != lag && felt ? characters_selected(in->core)->drive_count : 0;
     bool done = set_drive(in, &drive, error);
     for (int k = 0; k < all && done; k++) {
         struct drive other = characters_selected(in->core)->drives[k];
         other.lag = core_in_step(other.lag, lag, drive.lag);
-        done = k == chosen || edit_drive(in->core->document, owner, k, &other, error);
+        done = k == chosen || !core_is_felt(in->core, limb, other.spline) ||
+               edit_drive(in->core->document, owner, k, &other, error);
     }
     return done;
 }

@@ -1,4 +1,4 @@
-/// The sections on splines: their list, and the active one's feel, parameters and what they follow.
+/// The sections on the active spline: its feel, its parameters and what they follow.
 #include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
@@ -10,157 +10,6 @@
 #include "scene/warnings.h"
 #include <math.h>
 #include <stdio.h>
-
-enum { MAX_ROWS = 8, SWATCH = 22, KIND = 56 }; ///< splines listed at once; pixels
-enum { COLOR = 28, WIDTH = THEME_SPLINE_COLORS * COLOR + 20 };
-
-/// The colours of the theme, a typed one, and none.
-static void build_palette(struct inspector *in, const struct dropdown *list)
-{
-    enum { UNCHANGED = -2, DEFAULT = -1 };
-    static const struct row hex = {.name = "color.hex"};
-    struct ui *ui = &in->ui;
-    const int spline = document_find_spline_id(in->core->document, (unsigned)ui->popup.which);
-    if (spline < 0) return;
-    ui_popup_begin(ui, WIDTH, COLOR + UI_ROW + 8);
-    const struct rect r = {ui->scroll_area.x + 6, ui->y + 2, THEME_SPLINE_COLORS * COLOR, COLOR};
-    const uint32_t present = spline_list_color(in->core->document, spline);
-    int color = UNCHANGED;
-    for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
-        char name[24];
-        snprintf(name, sizeof name, "color.%d", i);
-        const struct rect field = {r.x + (float)(i * COLOR), r.y, COLOR, COLOR};
-        if (ui_color(ui, field, name, theme()->spline[i], theme()->spline[i] == present))
-            color = (int)theme_spline_rgb(i);
-    }
-    bool picked = color != UNCHANGED;
-
-    // Typed "#RRGGBB"; anything else shows an error and changes nothing.
-    const struct rect typed = {r.x, r.y + COLOR + 2, 86, UI_ROW}, none = {r.x + 92, typed.y, r.w - 92, UI_ROW};
-    const int stored = in->core->document->splines[spline]->color;
-    char text[COLOR_TEXT_SIZE];
-    color_print(stored < 0 ? (int)theme_spline_rgb(spline % THEME_SPLINE_COLORS) : stored, text);
-    if (!ui_line_is_open(ui, hex.name)) {
-        if (ui_button(ui, typed, "color.type", text, false)) ui_line_begin(ui, hex.name, text);
-    } else if (inspector_line(in, typed, &hex) && !color_parse(ui->text.bytes, &color)) {
-        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.*s”",
-                 name_fit(ui->text.bytes, 40), ui->text.bytes);
-    }
-    if (ui_button(ui, none, "color.none", "Default", false)) {
-        color = DEFAULT;
-        picked = true;
-    }
-    if (inspector_picks(in, list, color != UNCHANGED))
-        edit_spline_color(in->core->document, spline, color, &in->core->step.error);
-    ui_space(ui, COLOR + UI_ROW + 8);
-    ui_popup_end(ui);
-    if (picked) ui_popup_close(ui);
-}
-
-static const struct dropdown palette = {
-    .name = "palette", .hint = "Colour of this spline", .undo = "Set colour", .build = build_palette};
-
-static const struct row rename_row = {.name = "rename", .undo = "Rename spline"};
-
-void inspector_rename(struct inspector *in, int unused)
-{
-    const struct spline *spline = core_active_spline(in->core);
-    (void)unused;
-    if (!spline) return;
-    inspector_unfold(in, "section.splines");
-    in->sections.offset = 0; // the list is near the top
-    ui_line_begin(&in->ui, rename_row.name, spline->name);
-}
-
-/// true if the row was dropped after a drag.
-static bool build_row(struct inspector *in, int s, struct rect r)
-{
-    struct ui *ui = &in->ui;
-    struct core *core = in->core;
-    const struct spline *spline = core->document->splines[s];
-    bool active = s == core->focus.active, dropped = false;
-    char name[UI_NAME_SIZE];
-    snprintf(name, sizeof name, "spline.%s", spline->name);
-    const float right = core->view.on[SWITCH_MORE] ? 2 * INSPECTOR_ICON : KIND;
-    struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - right, r.h};
-    if (active && ui_line_is_open(ui, rename_row.name)) {
-        if (inspector_line(in, label, &rename_row) &&
-            !edit_spline_name(core->document, s, ui->text.bytes, &core->step.error))
-            ui_line_again(ui, rename_row.name);
-    } else {
-        ui_hint(ui, label, "Click to edit (PgUp, PgDn), M for another kind, F2 to rename, drag to reorder");
-        enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
-        if (event == UI_ROW_PRESSED) core_choose(core, s);
-        if (event == UI_ROW_TWICE) {
-            core_choose(core, s);
-            inspector_rename(in, 0);
-        }
-        dropped = event == UI_ROW_DROPPED;
-    }
-    struct rect swatch = {r.x, r.y, SWATCH, r.h};
-    if (!core->view.on[SWITCH_MORE]) {
-        const struct rect chip = {r.x + (SWATCH - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
-        if (ui->pass == UI_PASS_DRAW) drawlist_rounded(ui->list, chip, 3, spline_list_color(core->document, s));
-        ui_label_right(ui, (struct rect){label.x + label.w, r.y, KIND - 4, r.h},
-                       parameter_rows[PARAMETER_MODE].labels[spline_mode(spline)], theme()->text_dim);
-        return dropped;
-    }
-    snprintf(name, sizeof name, "color.%s", spline->name);
-    ui_hint(ui, swatch, palette.hint);
-    ui_swatch(ui, swatch, name, palette.name, (int)spline->id, spline_list_color(core->document, s));
-    inspector_offer(in, &palette);
-    const bool solo = selection_has(&core->view.solo, spline->id), shown = spline_list_shows(core, s);
-    struct rect icon = {r.x + r.w - 2 * INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
-    snprintf(name, sizeof name, "solo.%s", spline->name);
-    if (ui_icon_button(ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve"))
-        spline_list_flip(core, &core->view.solo, s);
-    icon.x += INSPECTOR_ICON;
-    snprintf(name, sizeof name, "eye.%s", spline->name);
-    if (ui_icon_button(ui, icon, name, shown ? UI_ICON_EYE : UI_ICON_EYE_CLOSED, false, "Show or hide this curve"))
-        spline_list_flip(core, &core->view.hidden, s);
-    return dropped;
-}
-
-void inspector_splines(struct inspector *in)
-{
-    static const struct row buttons[] = {
-        {ICON("splines.add", UI_ICON_ADD), .hint = "Add a spline with a knot at the playhead"},
-        {ICON("splines.copy", UI_ICON_COPY), .hint = "Duplicate this spline"},
-        {ICON("splines.delete", UI_ICON_DELETE), .hint = "Delete this spline"},
-        {ICON("splines.up", UI_ICON_UP), .hint = "Move this spline up"},
-        {ICON("splines.down", UI_ICON_DOWN), .hint = "Move this spline down"},
-    };
-    struct ui *ui = &in->ui;
-    const int count = in->core->document->spline_count,
-              first = inspector_first_row(count, in->core->focus.active, MAX_ROWS);
-    int from = -1, dropped = -1;
-    if (count == 0) ui_paragraph(ui, "This scene has no splines yet.", theme()->text_dim);
-    int rows = count < MAX_ROWS ? count : MAX_ROWS;
-    float top = ui->y;
-    for (int i = 0; i < rows; i++) {
-        const struct spline *spline = in->core->document->splines[first + i];
-        char name[UI_NAME_SIZE];
-        snprintf(name, sizeof name, "spline.%s", spline->name);
-        ui_push(ui, spline->id);
-        if (ui_is_dragged(ui, name)) from = first + i;
-        if (build_row(in, first + i, ui_row(ui, UI_ROW))) dropped = first + i;
-        ui_pop(ui);
-    }
-    const int row = (int)floorf((ui->pointer_y - top) / UI_ROW); // where a dragged row would go
-    const int to = first + (row < 0 ? 0 : row >= rows ? rows - 1 : row);
-    if (from >= 0 && to != from && ui->pass == UI_PASS_DRAW) {
-        const float y = top + (float)(to - first + (to > from ? 1 : 0)) * UI_ROW;
-        drawlist_rect(ui->list, (struct rect){ui->area.x + UI_PAD, y - 1, ui->area.w - 2 * UI_PAD, 2},
-                      theme()->accent);
-    }
-    if (dropped >= 0) spline_list_move(in->core, dropped, to);
-    inspector_more(in, count, MAX_ROWS, " splines; PgUp and PgDn show more");
-
-    struct core *core = in->core;
-    const int offered = core->view.on[SWITCH_MORE] ? sizeof buttons / sizeof buttons[0] : 1;
-    const int pressed = inspector_icons(in, ui_row(ui, UI_ROW), buttons, offered);
-    if (pressed >= 0) spline_list_change(core, pressed);
-}
 
 static const struct preset {
     const char *name, *label, *hint;
@@ -193,7 +42,7 @@ const char *inspector_feel_title(struct inspector *in)
     const int limb = alone ? -1 : core_limb(in->core), size = sizeof in->feel_title;
     const char *name = limb >= 0 ? rig_title(document->rigs[limb]) : core_active_spline(in->core)->name;
     int splines = 0;
-    for (int s = 0; limb >= 0 && s < document->spline_count; s++) splines += rig_is_moved(document->rigs[limb], s);
+    for (int s = 0; s < document->spline_count; s++) splines += core_is_felt(in->core, limb, s);
     const int length = snprintf(in->feel_title, (size_t)size, "Feel · %.*s", name_fit(name, 64), name);
     if (splines > 1) snprintf(in->feel_title + length, (size_t)(size - length), " (%d splines)", splines);
     return in->feel_title;
@@ -201,24 +50,33 @@ const char *inspector_feel_title(struct inspector *in)
 
 static void apply_preset(struct inspector *in, const struct preset *preset)
 {
-    const struct spline *spline = core_active_spline(in->core);
-    struct error *error = &in->core->step.error;
+    struct core *core = in->core;
+    struct document *document = core->document;
+    struct error *error = &core->step.error;
     const int limb = inspector_limb(in);
-    bool good = (spline_mode(spline) != WIGGLY_CUBIC ||
-                 core_set_parameter(in->core, in->core->focus.active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
-                core_set_felt(in->core, limb, PARAMETER_FREQUENCY, preset->frequency, false, error) &&
-                core_set_felt(in->core, limb, PARAMETER_DAMPING, preset->damping, true, error) &&
-                core_set_felt(in->core, limb, PARAMETER_WIND_UP, preset->wind_up, true, error);
+    bool good = true;
+    for (int s = 0; s < document->spline_count && good; s++) {
+        const bool is_chosen = s == core->focus.active || (limb == LIMB_ROWS && core_is_felt(core, limb, s));
+        if (is_chosen && spline_mode(document->splines[s]) == WIGGLY_CUBIC)
+            good = core_set_parameter(core, s, PARAMETER_MODE, WIGGLY_COMPLEX);
+    }
+    good = good && core_set_felt(core, limb, PARAMETER_FREQUENCY, preset->frequency, false, error) &&
+           core_set_felt(core, limb, PARAMETER_DAMPING, preset->damping, true, error) &&
+           core_set_felt(core, limb, PARAMETER_WIND_UP, preset->wind_up, true, error);
 
-    // The same lag for each joint in the channel that the spline bends, and in the limb's others.
+    // The same lag for each joint in the channel that the spline bends, and in those of the limb, or of the rows.
     const bool bends = inspector_felt_channel(in);
-    const int joints = bends ? bones_joints(in->core, in->rig) : 0;
-    const int inputs = bends ? rig_input_count(in->core->document->rigs[in->rig]) : 0;
-    const struct angles angles = {.value = {joints > 1 ? core_round(preset->lag / (joints - 1), 0.1) : 0}};
-    for (int c = 0; c < inputs && good; c++) {
-        const bool others = limb == in->rig && rig_point_input(in->core->document->rigs[limb], c) >= 0;
-        const struct channel_place at = {in->rig, c};
-        if (c == in->channel || others) good = edit_angles(in->core->document, at, ANGLE_LAG, &angles, error);
+    for (int r = 0; r < document->rig_count && good; r++) {
+        int count;
+        const struct channel *channels = rig_channels(document->rigs[r], &count);
+        const int joints = count > 0 ? bones_joints(core, r) : 0;
+        const struct angles angles = {.value = {joints > 1 ? core_round(preset->lag / (joints - 1), 0.1) : 0}};
+        for (int c = 0; c < count && good; c++, channels = rig_channels(document->rigs[r], &count)) {
+            const bool shown = bends && r == in->rig, all = limb == LIMB_ROWS || (shown && limb == r);
+            const bool felt = all && core_is_felt(core, limb, channels[c].spline);
+            if ((shown && c == in->channel) || (felt && rig_point_input(document->rigs[r], c) >= 0))
+                good = edit_angles(document, (struct channel_place){r, c}, ANGLE_LAG, &angles, error);
+        }
     }
     core_edited(in->core, in->core->focus.active);
 }

@@ -25,8 +25,9 @@ struct knot_numbers {
 struct inspector {
     struct core *core;
     struct ui ui;
-    enum ui_change change; ///< the change a number is being set by
-    struct ui_list sections;
+    enum ui_change change;                ///< the change a number is being set by
+    struct ui_list sections, lines;       ///< of the panel; of the splines' list
+    unsigned listed;                      ///< id of the spline last scrolled into the list's view
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections open that start closed, or the reverse
     bool called[INSPECTOR_MAX_SECTIONS];  ///< requested sections, shown without More until closed
     int rig, channel;                     ///< the shown tail or chain, and its channel
@@ -58,7 +59,6 @@ enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list
 
 /// The sections. Each builds the rows below its header; inspector.c has the table.
 void inspector_scene(struct inspector *in);
-void inspector_splines(struct inspector *in);
 void inspector_feel(struct inspector *in);
 void inspector_rigs(struct inspector *in);
 void inspector_spline(struct inspector *in);
@@ -71,6 +71,8 @@ void inspector_character(struct inspector *in);
 void inspector_pins(struct inspector *in);
 void inspector_model(struct inspector *in);
 void inspector_history(struct inspector *in);
+/// The splines' list, left of the curves.
+void inspector_splines(struct inspector *in);
 /// The title says how many knots are selected.
 const char *inspector_knot_title(struct inspector *in);
 
