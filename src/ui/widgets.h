@@ -206,7 +206,7 @@ bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui
 /// A number: a bar from `minimum` to `maximum`, or if those are equal a field that a drag changes by `step` per pixel.
 struct ui_number {
     const char *name;
-    const char *label; ///< in the label column; NULL: the field fills the rectangle
+    const char *label; ///< in the label column; NULL, or in a narrow rectangle: the field fills it
     const char *unit;  ///< after the number, or NULL
     const char *hint;
     const char *shown;       ///< replaces the number, or NULL

@@ -458,12 +458,13 @@ static void paint_value(struct ui *ui, struct rect r, struct rect field, uint32_
     bool held = ui->held == id && ui->moved, typing = ui->typing == id;
     bool hot = ui_hovered(ui, field) && ui->held == 0;
     if (hot || ui->held == id) ui->over = typing ? UI_OVER_TEXT : UI_OVER_NUMBER;
-    if (number->label) {
+    if (field.x > r.x) {
         struct rect label = {r.x, r.y, field.x - r.x - UI_GAP, r.h};
         ui_label(ui, label, number->label, hot || held || ui->focus == id ? theme()->text : theme()->text_dim);
     }
     drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
-    struct rect inner = {field.x + UI_GAP, field.y, field.w - 2 * UI_GAP, field.h};
+    const float pad = field.w < UI_LABEL ? UI_GAP / 2.0f : UI_GAP;
+    struct rect inner = {field.x + pad, field.y, field.w - 2 * pad, field.h};
     if (typing) {
         paint_text(ui, inner, &ui->text, FONT_NUMBER, THEME_TEXT_SMALL, true);
         drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, ui->refused ? theme()->error : theme()->accent);
@@ -492,7 +493,7 @@ enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *nu
 {
     uint32_t id = ui_id(ui, number->name);
     struct rect field = ui_field_of(r);
-    if (number->label) {
+    if (number->label && r.w > UI_LABEL + UI_GAP) {
         field.x += UI_LABEL + UI_GAP;
         field.w -= UI_LABEL + UI_GAP;
     }

@@ -90,8 +90,8 @@ SESSION_TEST(test_palette_knows_other_words, panel_open(s, scene, 1280, 720))
         {"reverse", "Scale the selection"},
         {"weight", "Feel heavy"},
         {"bake", "Export: Blender, film, table"},
-        {"fps", "Unfold Scene: frame rate, range"},
-        {"length", "Unfold Scene: frame rate, range"},
+        {"fps", "First and last frame, frame rate"},
+        {"length", "First and last frame, frame rate"},
         {"mute", "Solo: show only this spline, or all again"},
         {"lock", "Pin the point where it is"},
         {"flip", "Mirror the chain to the other side"},
@@ -477,3 +477,13 @@ SESSION_TEST(test_a_long_list, panel_open(s, listed, 1280, 720))
     assert_near(list->offset, before - 60, 1);
     hands(s, "carry spline.spline_30 0 30; once");
 }
+
+/// The scene's range and rate are above the list; typed numbers may be changes. In a narrow window they are in the panel.
+WALK(
+    test_range_and_rate_are_at_the_ruler, panel_open(s, scene, 1280, 720),
+    "more off; enter scene.last +24; is frames.1 124; once; enter scene.first -10; is frames.0 -10; is asked none;"
+    "key F3; type duration; key Enter; type 100; key Enter; is frames.1 100; enter scene.fps 30; is asked ask; key S;"
+    "is fps 30")
+
+WALK(test_range_and_rate_on_a_phone, panel_open(s, scene, 390, 844),
+     "more off; lacks scene.last; key F3; type duration; key Enter; enter scene.last 90; is frames.1 90")

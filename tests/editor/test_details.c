@@ -133,7 +133,7 @@ SESSION_TEST(a_target_from_the_pointer, session_open(s, tail))
 
 /// Knots before a first frame are asked about, as those behind a last one are.
 WALK(a_first_frame_asks_for_its_knots, panel_open(s, tail, 1280, 1600),
-     "click section.scene; enter scene.first 30; is asked ask; key T; is frames.0 30; sway.knots 1; lift.knots 0")
+     "enter scene.first 30; is asked ask; key T; is frames.0 30; sway.knots 1; lift.knots 0")
 
 /// A preset is no state that something is in: none of their buttons looks like the one that Enter presses.
 SESSION_TEST(presets_look_alike_and_plain, panel_open(s, tail, 1280, 1400))

@@ -178,14 +178,14 @@ WALK(test_a_track_is_attached_and_detached, panel_open(s, scene, 1280, 900),
 // --- the scene ----------------------------------------------------------------------------------------------------------
 
 WALK(test_frames_per_second_ask, panel_open(s, scene, 1280, 2000),
-     "click section.scene; enter scene.fps 48; is asked ask; is fps 24;"
+     "enter scene.fps 48; is asked ask; is fps 24;"
      "key S; is fps 48; is splines.0.knots.1.frame 72; is frames.1 192; once;"
      "key Ctrl+Z; enter scene.fps 48; key F; is fps 48; is splines.0.knots.1.frame 36;"
      "enter scene.fps 0; said rate: expected; key Escape")
 
 /// The playhead stays on its frame, or comes inside.
 WALK(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 2000),
-     "click section.scene; click ruler(80); enter scene.last 50; is asked ask;"
+     "click ruler(80); enter scene.last 50; is asked ask;"
      "key T; is splines.0.knots.# 2; is position 50; once;"
      "key Ctrl+Z; enter scene.last 50; key M; is splines.0.knots.2.frame 50;"
      "enter scene.last 50.5; said last: expected a whole number, got 50.5;"
@@ -197,7 +197,7 @@ SESSION_TEST(test_a_range_has_an_end, panel_open(s, "{'frames': [0, 96], 'subste
 {
     const int longest = (SPLINE_MAX_SAMPLES - 1) / 4;
     hands(s,
-          "click section.scene; keep;"
+          "keep;"
           "enter scene.last 999999999; is asked none; says last: expected -1000000000 … %d, got 999999999;"
           "enter scene.first -999999999; said first: expected %d … 1000000000; kept;"
           "enter scene.last %d; is frames.1 %d",

@@ -22,6 +22,7 @@ enum { STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
 struct layout {
     struct rect window, stage, curves, inspector, status;
     struct rect list;       ///< the splines' list, left of the curves
+    struct rect range;      ///< frame rate, first and last frame, above the list; empty above a narrow one
     struct rect ruler;      ///< frame numbers above the plot
     struct rect sheet;      ///< the dope sheet's rows below the ruler; empty if closed
     struct rect value_axis; ///< numbers left of the plot

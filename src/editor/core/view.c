@@ -37,6 +37,7 @@ void core_layout(struct core *core)
     float width = fmaxf(left - axis - MARGIN, 16);
     float sheet = fminf(l->sheet_height, fmaxf(l->curves.h - RULER_HEIGHT - 17, 0));
     float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1 - sheet, 16);
+    l->range = (struct rect){0, stage + 1, list < LIST ? 0 : list, RULER_HEIGHT};
     l->list = (struct rect){0, stage + 1 + RULER_HEIGHT, list, sheet + plot};
     l->ruler = (struct rect){axis, stage + 1, width, RULER_HEIGHT};
     l->sheet = (struct rect){axis, stage + 1 + RULER_HEIGHT, width, sheet};
@@ -55,7 +56,7 @@ void core_layout(struct core *core)
     l->plot.w += across;
     l->sheet.w += across;
     l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
-    struct rect *const lower[] = {&l->curves, &l->list, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
+    struct rect *const lower[] = {&l->curves, &l->list, &l->range, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
     l->stage = presenter->shares || upright ? l->open : l->window; // upright, nothing of it would be left
     for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
     if (upright) l->inspector.y += down;

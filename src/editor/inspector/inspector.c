@@ -145,6 +145,7 @@ static bool build_panel(struct inspector *in, struct rect area)
     if (ui_segments(ui, inspector_label(in, row, "compare with"), "look", looks, 3, &look))
         core_set_look(in->core, (enum look)look);
     inspector_splines(in);
+    if (in->core->view.layout.range.w > 0) inspector_range(in);
     inspector_offer(in, &inspector_add_list); // A works anywhere
     if (in->list) in->list->build(in, in->list);
     return roundf(next.offset) == offset && in->lines.offset == listed;
@@ -177,7 +178,8 @@ void inspector_reset(struct inspector *in)
 static bool contains(const struct inspector *in, float x, float y)
 {
     const struct layout *layout = &in->core->view.layout;
-    return rect_contains(layout->inspector, x, y) || rect_contains(layout->list, x, y);
+    return rect_contains(layout->inspector, x, y) || rect_contains(layout->list, x, y) ||
+           rect_contains(layout->range, x, y);
 }
 
 /// Whether the panel handles the event. Without keyboard focus here, keys go to the editor.
@@ -534,7 +536,7 @@ void inspector_more(struct inspector *in, int count, int most, const char *what)
     if (count > most) ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-enum { ROW_RATE, ROW_FIRST, ROW_LAST, SCENE_ROWS };
+enum { ROW_FIRST, ROW_LAST, ROW_RATE, SCENE_ROWS };
 
 /// Rate and range ask before they move knots.
 static bool set_scene(struct inspector *in, int which, double number, struct error *error)
@@ -562,17 +564,46 @@ static const struct number_row scene_rows[SCENE_ROWS] = {
                          TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1}},
 };
 
-void inspector_scene(struct inspector *in)
+// Range and frame rate are at the ruler's end, above the splines' list, or if that is narrow, in the panel.
+
+void inspector_range(struct inspector *in)
 {
+    static const float shares[SCENE_ROWS] = {[ROW_FIRST] = 0.28f, [ROW_LAST] = 0.3f, [ROW_RATE] = 0.42f};
+    struct ui *ui = &in->ui;
     const struct number_home home = {.of = in->core->document, .set = set_scene, .settles = true};
-    for (int i = 0; i < SCENE_ROWS; i++) {
+    const struct rect panel = ui->clip, above = in->core->view.layout.range;
+    struct rect r = above;
+    if (above.w > 0) ui->clip = above;
+    if (above.w > 0 && ui->pass == UI_PASS_DRAW) {
+        drawlist_set_clip(ui->list, above);
+        drawlist_rect(ui->list, above, theme()->panel);
+    }
+    for (int i = 0; i < SCENE_ROWS; i++, r.x += r.w) {
+        r.w = shares[i] * above.w;
         struct number_row row = scene_rows[i];
         const double longest = document_longest(in->core->document);
-        if (i == ROW_RATE && in->core->document->fps != floor(in->core->document->fps)) row.ui.decimals = 3;
+        if (i == ROW_RATE && in->core->document->fps != floor(in->core->document->fps)) {
+            row.ui.decimals = 3;
+            if (above.w > 0) row.ui.unit = NULL; // 23.976 fills the field
+        }
         if (i == ROW_FIRST) row.ui.lowest = fmax(row.ui.lowest, in->core->document->last_frame - longest);
         if (i == ROW_LAST) row.ui.highest = fmin(row.ui.highest, in->core->document->first_frame + longest);
-        inspector_number(in, &row, &home, i, ui_row(&in->ui, UI_ROW));
+        inspector_number(in, &row, &home, i, above.w > 0 ? r : ui_row(ui, UI_ROW));
     }
+    ui->clip = panel;
+    if (above.w > 0 && ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, panel);
+}
+
+void inspector_edit_range(struct inspector *in, int unused)
+{
+    (void)unused;
+    inspector_unfold(in, "section.scene");
+    in->ui.focus = ui_id(&in->ui, scene_rows[ROW_LAST].ui.name);
+}
+
+void inspector_scene(struct inspector *in)
+{
+    if (in->core->view.layout.range.w == 0) inspector_range(in);
 }
 
 enum { HISTORY_ROWS = 9 };
@@ -888,9 +919,10 @@ void inspector_knot(struct inspector *in)
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
         inspector_idle(in, "knots", frames);
         inspector_idle(in, "values", values);
+        enum { FEW = 6 }; // need no thinning
         static const struct row simplify = {NAMED("knot.simplify", "Simplify"),
                                             .hint = "Fewer knots for nearly the same motion"};
-        if (!in->core->cleaning.of && knots > 2 && build_buttons(in, &simplify, 1) == 0)
+        if (!in->core->cleaning.of && knots > FEW && build_buttons(in, &simplify, 1) == 0)
             core_simplify(in->core, true);
     }
     if (in->core->cleaning.of) build_tolerance(in);

@@ -11,6 +11,8 @@ struct inspector *inspector_create(struct core *core);
 void inspector_destroy(struct inspector *in);
 /// F2: starts typing the active spline's name.
 void inspector_rename(struct inspector *in, int unused);
+/// Puts the keyboard's focus on the last frame, so that a number can be typed.
+void inspector_edit_range(struct inspector *in, int unused);
 /// Opens a section and scrolls to it.
 void inspector_unfold(struct inspector *in, const char *name);
 /// Shows a rig and its spline.

@@ -59,6 +59,7 @@ enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list
 
 /// The sections. Each builds the rows below its header; inspector.c has the table.
 void inspector_scene(struct inspector *in);
+void inspector_range(struct inspector *in);
 void inspector_feel(struct inspector *in);
 void inspector_rigs(struct inspector *in);
 void inspector_spline(struct inspector *in);
