@@ -80,20 +80,24 @@ MINE_TEST(a_figure_asks_before_it_replaces_work)
 {
     struct app *app = &b->app;
     char *edited = text_of_document(app->work.document);
-    blind_keys(b, "^4");
+    blind_send_example(b, "figure 4");
+    blind_frame(b);
     assert_int_equal(asked(e(b)), DIALOG_UNSAVED);
     blind_keys(b, "C");
     assert_prints(app->work.document, edited);
-    blind_keys(b, "^4 S");
+    blind_send_example(b, "figure 4");
+    blind_frame(b);
+    blind_keys(b, "S");
     assert_int_equal(asked(e(b)), DIALOG_NONE);
     assert_true(app->work.document->spline_count > 1);
     struct document *saved = document_of_file(scene());
     assert_prints(saved, edited);
     document_destroy(saved);
     free(edited);
-    for (const char *const *key = (const char *const[]){"^1", "^9", "^7", "^N", NULL}; *key; key++) {
+    for (const char *const *words = (const char *const[]){"figure 1", "hands", "figure 7", NULL}; *words; words++) {
         const unsigned serial = app->work.document->serial;
-        blind_keys(b, *key);
+        blind_send_example(b, *words);
+        blind_frame(b);
         assert_int_equal(asked(e(b)), DIALOG_NONE);
         assert_int_not_equal(app->work.document->serial, serial);
         assert_null(app->work.document->path);
