@@ -106,7 +106,7 @@ static void character_weigh(const struct posing *posing, int rig, const int *spl
     for (int i = 0; figure && i < count; i++) {
         double sum = 0, areas = 0;
         for (int t = 0; t + 2 < figure->character.index_count; t += 3) {
-            const uint32_t *corner = &figure->character.indices[t];
+            const uint32_t *corner = figure->character.indices + t;
             const float(*position)[3] = (const float(*)[3])figure->character.position;
             double u[3], v[3];
             for (int k = 0; k < 3; k++) {

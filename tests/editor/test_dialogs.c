@@ -361,7 +361,9 @@ SESSION_TEST(
                 "'dog', 'from': 'c', 'to': 'd', 'channels': [{'spline': 'sway'}]}]}",
                 "dog.json", 1280, 720))
 {
-    hands(s, "tap More formats; tap .pc2; hides brush; hides all clips; tap .bvh; hides brush; hides all clips; tap .glb");
+    hands(
+        s,
+        "tap More formats; tap .pc2; hides brush; hides all clips; tap .bvh; hides brush; hides all clips; tap .glb");
     const struct draw_command *label = shown_text(s->editor, "all clips");
     assert_non_null(label);
     session_move(s, label->x - 20, label->y - 4);
