@@ -256,6 +256,8 @@ const struct command commands[] = {
     ALSO("stop hold", "Still: come to rest at the knot", SLOPES, ON_KNOT, SELECTED, 0, .core = core_set_hold,
          HOLDS_STILL, {'P', SHIFT}),
     COMMAND("Settle at the knot's value", SLOPES, 0, SELECTED, 0, .core = core_toggle_settles, 0, {'P', ALT}),
+    ALSO("turn stay overshoot", "Pose to pose: settle at every knot", SLOPES, 0, SWING, 0,
+         .core = core_toggle_pose_to_pose, 0, {'P', MOD_ALT | MOD_SHIFT}),
 
     COMMAND("Next spline", SPLINE, ON_CURVES, SPLINE, REPEATS, .core = core_activate_neighbour, 1,
             {KEY_PAGE_DOWN, 0}),
@@ -428,7 +430,6 @@ const struct command commands[] = {
     ALSO("weight mass", "Feel heavy", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 2, {0}),
     PALETTE("Feel like jelly", SPLINE, .inspector = inspector_preset, 3),
     PALETTE("Feel like an antenna", SPLINE, .inspector = inspector_preset, 4),
-    PALETTE("Pose to pose: settle at every knot, or not", SWING, .core = core_toggle_pose_to_pose, 0),
     PALETTE("Forget before", NOTHING, .core = take_keep, false),
     PALETTE("Roll a variation of the motion", SWING, .inspector = inspector_roll, 0),
     PALETTE("Play at normal speed", NOTHING, .core = playback_change_speed, 0),

@@ -104,6 +104,10 @@ WALK(pose_to_pose_settles_at_every_knot, panel_open(s, tail_scene, 1280, 1700),
      "click knot(sway,0); key Shift+P; keep; click settles.all.on; sway.settles 0 1 1; lift.settles 0; once;"
      "click settles.all.off; sway.settles 0 0 0; click spline.pace; lacks settles.all.on")
 
+/// A limb's poses become values that all of its splines settle at; Alt means the active spline alone.
+WALK(pose_to_pose_is_of_the_limb, panel_open(s, tail_scene, 1280, 1700),
+     "carry tail(tail,0.8) 20 10; keep; key Alt+Shift+P; sway.posed 0 0 0; sway.settles 1 1 1; once")
+
 /// Calm is of the whole curve, or of a loop.
 WALK(calm_shows_where_it_acts, panel_open(s, tail_scene, 1280, 1700),
      "click section.advanced; finds calm; enter wind-up 12; lacks calm; click start.loop; finds calm")

@@ -441,15 +441,27 @@ void core_cycle_mode(struct core *core, int unused)
         core_set_parameter(core, core->focus.active, PARAMETER_MODE, (spline_mode(spline) + 1) % (WIGGLY_CUBIC + 1));
 }
 
+void core_pose_to_pose(struct core *core, int limb)
+{
+    const struct spline *spline = core_active_spline(core);
+    const bool settles = spline && !spline_settles(spline);
+    if (!spline || !core_step(core, settles ? "Pose to pose" : "Settle off", 0)) return;
+    for (int s = 0; s < core->document->spline_count; s++) {
+        if (s != core->focus.active && !core_is_felt(core, limb, s)) continue;
+        for (int k = 0; k < core->document->splines[s]->knot_count; k++) {
+            struct knot knot = core->document->splines[s]->knots[k];
+            knot.settles = settles && !knot.still;
+            knot.has_phase &= !settles;
+            core_put_knot(core, s, &knot);
+        }
+    }
+    core_edited(core, -1);
+}
+
 void core_toggle_pose_to_pose(struct core *core, int unused)
 {
     (void)unused;
-    const struct spline *spline = core_active_spline(core);
-    if (!spline) return;
-    const bool settles = !spline_settles(spline);
-    if (!core_step(core, settles ? "Pose to pose" : "Settle off", 0)) return;
-    edit_spline_settles(core->document, core->focus.active, settles, &core->step.error);
-    core_edited(core, core->focus.active);
+    core_pose_to_pose(core, core_limb(core));
 }
 
 /// Rounded as in files.

@@ -71,7 +71,9 @@ void core_nudge_parameter(struct core *core, int direction);
 /// Goes to the next kind of spline, cyclically.
 void core_cycle_mode(struct core *core, int unused);
 
-/// Lets the active spline's motion settle at all of its knots, or if it does, at none.
+/// Lets the motion of a limb settle at all of its knots, which then hold values alone; or if the active spline does, at none. The second: of the
+/// limb that Feel acts on.
+void core_pose_to_pose(struct core *core, int limb);
 void core_toggle_pose_to_pose(struct core *core, int unused);
 
 #endif

@@ -525,15 +525,15 @@ void inspector_spline(struct inspector *in)
     static const enum parameter shown[] = {PARAMETER_MODE, PARAMETER_EQUILIBRIUM, PARAMETER_START};
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
-    static const struct row all = {NAMED("settles.all", "pose to pose"),
-                                   .hint = "Let the motion settle at every knot: it overshoots each, and stays",
-                                   CHOICES(choices)};
-    const struct spline *spline = core_active_spline(in->core);
-    int settles = spline_settles(spline);
-    if (spline_mode(spline) == WIGGLY_CUBIC) {
+    static const struct row all = {
+        NAMED("settles.all", "pose to pose"),
+        .hint = "Let the motion settle at every knot: it overshoots each, and stays. Poses become values",
+        CHOICES(choices)};
+    int settles = spline_settles(core_active_spline(in->core));
+    if (spline_mode(core_active_spline(in->core)) == WIGGLY_CUBIC) {
         inspector_idle(in, all.label, "–");
     } else if (inspector_choice(in, &all, &settles)) {
-        core_toggle_pose_to_pose(in->core, 0);
+        core_pose_to_pose(in->core, inspector_limb(in));
     }
 }
 

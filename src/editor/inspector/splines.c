@@ -202,9 +202,11 @@ static enum ui_row_event build_line(struct inspector *in, struct line line, stru
         if ((near || (is_wide && told)) && ui_icon_button(ui, icon, full, icons[locks][told], false, hints[locks]))
             spline_list_flip(core, locks ? LIST_LOCK : LIST_HIDE, line.first, line.end);
     }
-    if (event == UI_ROW_PRESSED) choose_line(core, line, ui->held);
-    if (event == UI_ROW_TWICE || (event == UI_ROW_CLICKED && !(core->input.mods & (MOD_CTRL | MOD_SHIFT))))
-        choose_line(core, line, false);
+    if (event == UI_ROW_PRESSED) {
+        in->adds = core->input.mods & (MOD_CTRL | MOD_SHIFT);
+        choose_line(core, line, ui->held);
+    }
+    if (event == UI_ROW_TWICE || (event == UI_ROW_CLICKED && !in->adds)) choose_line(core, line, false);
     if (event == UI_ROW_TWICE) ui_line_begin(ui, typed->name, name);
     return event;
 }

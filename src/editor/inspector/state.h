@@ -28,6 +28,7 @@ struct inspector {
     enum ui_change change;                ///< the change a number is being set by
     struct ui_list sections, lines;       ///< of the panel; of the splines' list
     unsigned listed;                      ///< id of the spline last scrolled into the list's view
+    bool adds;                            ///< the pressed row of the list joins those that are selected
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections open that start closed, or the reverse
     bool called[INSPECTOR_MAX_SECTIONS];  ///< requested sections, shown without More until closed
     int rig, channel;                     ///< the shown tail or chain, and its channel
