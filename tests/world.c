@@ -298,6 +298,9 @@ static int do_rig(struct document *d, const struct words *w, struct error *error
 {
     static const char *const fits[] = {"refuse", "move", "trim", NULL};
     if (is(w, "fps")) return edit_fps(d, w->number[1], w->count > 2, error);
+    if (is(w, "background"))
+        return edit_background(d, &(struct background_file){w->count > 1 ? w->word[1] : NULL, NUMBER(2), NULL},
+                               error);
     if (is(w, "substeps")) return edit_substeps(d, NUMBER(1), error);
     if (is(w, "range"))
         return edit_range(d, NUMBER(1), NUMBER(2), (enum range_fit)word_among(w->word[3], fits), error);

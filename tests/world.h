@@ -46,6 +46,7 @@ struct document *world_edit(struct world *world);
 ///     fps RATE [keep]                     substeps N                        range FIRST LAST refuse|move|trim
 ///     angles RIG CHANNEL KIND NUMBER …    numbers, or of a ramp PLACE:DEGREES
 ///     bend RIG CHANNEL SPLINE AXIS OF     channel RIG SPLINE AXIS OF        unchannel RIG CHANNEL
+///     background [FILE OFFSET]
 ///     tail RIG SPLINE                     unrig RIG      rename RIG NAME    joints RIG COUNT
 ///     length RIG VALUE                    place RIG AXIS VALUE              ride RIG AXIS SPLINE
 ///     clip RIG NAME                       turn RIG DEGREES                  floor RIG HEIGHT                   offset RIG FRAMES

@@ -42,6 +42,7 @@ static void empty(struct document *document)
     free(document->splines);
     free(document->rigs);
     free(document->folder);
+    fields_free(background_fields, &document->background);
     json_decref(document->owned);
 }
 
@@ -61,6 +62,7 @@ struct document *document_copy(const struct document *document)
     copy->path = copy_text(document->path);
     copy->about = copy_text(document->about);
     copy->folder = copy_text(document->folder);
+    fields_copy(background_fields, &copy->background);
     copy->splines = need((size_t)document->spline_count + 1, sizeof *copy->splines);
     copy->rigs = need((size_t)document->rig_count + 1, sizeof *copy->rigs);
     for (int i = 0; i < document->spline_count; i++) copy->splines[i] = spline_hold(document->splines[i]);
@@ -81,7 +83,8 @@ bool document_equals(const struct document *a, const struct document *b)
 {
     bool same = a->serial == b->serial && a->fps == b->fps && a->substeps == b->substeps &&
                 a->first_frame == b->first_frame && a->last_frame == b->last_frame &&
-                a->spline_count == b->spline_count && a->rig_count == b->rig_count;
+                a->spline_count == b->spline_count && a->rig_count == b->rig_count &&
+                fields_equal(background_fields, &a->background, &b->background);
     for (int i = 0; same && i < a->spline_count; i++) same = a->splines[i] == b->splines[i];
     for (int i = 0; same && i < a->rig_count; i++) same = a->rigs[i] == b->rigs[i];
     return same;
@@ -195,12 +198,18 @@ bool document_model_path(const struct document *document, int rig, char path[PAT
     return model && path_resolve(document->folder, model, path);
 }
 
+bool document_background_path(const struct document *document, char path[PATH_LIMIT])
+{
+    return document->background.file && path_resolve(document->folder, document->background.file, path);
+}
+
 void document_note_models(const struct document *document)
 {
     char path[PATH_LIMIT];
     for (int r = 0; r < document->rig_count; r++) {
         if (document_model_path(document, r, path)) file_note_read(path, "a model of the scene");
     }
+    if (document_background_path(document, path)) file_note_read(path, "the background of the scene");
 }
 
 size_t document_bytes_beside(const struct document *document, const struct document *other)

@@ -73,6 +73,13 @@ static inline enum wiggly_start spline_start(const struct spline *spline)
     return (enum wiggly_start)spline->parameter[PARAMETER_START].value;
 }
 
+/// The picture or film behind the stage.
+struct background_file {
+    char *file; ///< a picture, a film or a folder of pictures; NULL: none
+    int offset; ///< the picture shown at frame 0
+    struct json_t *extra;
+};
+
 struct document {
     char *path;      ///< of its own file, NULL for an untitled one; not saved
     unsigned serial; ///< tells opened documents apart; not saved
@@ -84,6 +91,7 @@ struct document {
     int spline_count;
     struct rig **rigs; ///< in the order of the file
     int rig_count;
+    struct background_file background;
     char *folder;     ///< where relative paths start; NULL: the working folder
     unsigned next_id; ///< of a knot, pin, spline or rig
     uint64_t edits;   ///< new after every edit: no other state of any document has it; not saved
@@ -115,7 +123,10 @@ void document_set_path(struct document *document, const char *path);
 /// The absolute path of a rig's model; false if it has none, or one that is too long.
 bool document_model_path(const struct document *document, int rig, char path[PATH_LIMIT]);
 
-/// Guards the models of a document (file_note_read()), also those that will not be read.
+/// The same of the background.
+bool document_background_path(const struct document *document, char path[PATH_LIMIT]);
+
+/// Guards the models and background of a document (file_note_read()), also those that will not be read.
 void document_note_models(const struct document *document);
 
 /// Bytes that a document holds and `other` (NULL: none) does not, without unknown keys.

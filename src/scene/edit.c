@@ -182,6 +182,18 @@ bool edit_substeps(struct document *document, int substeps, struct error *error)
     return end_edit(document, before, check_knots_fit(document, error), error);
 }
 
+bool edit_background(struct document *document, const struct background_file *wanted, struct error *error)
+{
+    struct background_file set = *wanted;
+    if (set.file && !fields_check(document, JOINTS_UNKNOWN, background_fields, &set, error)) return false;
+    if (fields_equal(background_fields, &set, &document->background)) return true;
+    fields_copy(background_fields, &set); // first, because it may be this document's own
+    fields_free(background_fields, &document->background);
+    document->background = set;
+    document_touch(document);
+    return true;
+}
+
 bool edit_range(struct document *document, int first, int last, enum range_fit fit, struct error *error)
 {
     struct timing timing = timing_of(document);

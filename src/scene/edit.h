@@ -51,6 +51,8 @@ enum range_fit {
     RANGE_TRIM, ///< delete them
 };
 bool edit_range(struct document *document, int first, int last, enum range_fit fit, struct error *error);
+/// Replaces the background by a copy; one without a file removes it.
+bool edit_background(struct document *document, const struct background_file *wanted, struct error *error);
 
 // --- rigs ----------------------------------------------------------------------------------------------------------------
 

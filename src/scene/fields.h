@@ -306,7 +306,7 @@ bool model_find(const struct document *document, const char *text, bool *by_file
 /// Whether a spline's equilibrium may follow it; −0 becomes 0, and its model is looked up.
 bool motion_check(const struct document *document, struct joint_motion *motion, struct error *error);
 
-extern const struct field knot_fields[], knot_list_field, motion_fields[];
+extern const struct field knot_fields[], knot_list_field, motion_fields[], background_fields[];
 
 // --- angles
 

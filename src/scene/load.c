@@ -257,8 +257,15 @@ static void load_splines(struct reader *reader, const struct value *scene)
 
 enum { FORMAT_VERSION = 2 };
 
-static const char *const scene_keys[] = {"wiggly",  "about", "fps",      "substeps", "frames",
-                                         "splines", "rigs",  "recovers", NULL};
+static const char *const scene_keys[] = {"wiggly",  "about", "fps",      "substeps",   "frames",
+                                         "splines", "rigs",  "recovers", "background", NULL};
+
+const struct field background_fields[] = {
+    {FIELD("file", FIELD_PATH, struct background_file, file), .is_required = true},
+    {FIELD("offset", FIELD_WHOLE, struct background_file, offset),
+     .range = {-SCENE_MAX_FRAME, SCENE_MAX_FRAME, false}, .is_quiet = true},
+    FIELD_END(struct background_file),
+};
 
 /// Reads fps, substeps and frames, and checks the number of samples over all splines.
 static void load_domain(struct reader *reader, const struct value *scene)
@@ -360,6 +367,7 @@ static void load_scene(struct reader *reader, json_t *json)
         return;
     }
     const struct value format = reader_member(&scene, "wiggly"), about = reader_member(&scene, "about");
+    const struct value background = reader_member(&scene, "background");
     int version = FORMAT_VERSION;
     if (!reader_integer(reader, format, 1, 1000000, &version)) return;
     if (version > FORMAT_VERSION) {
@@ -373,6 +381,10 @@ static void load_scene(struct reader *reader, json_t *json)
     load_splines(reader, &scene);
     load_rigs(reader, &scene);
     resolve_motions(reader, &scene);
+    if (background.json && !json_is_object(background.json))
+        reader_unexpected(reader, background, "an object");
+    else if (background.json)
+        object_load(reader, &background, background_fields, &reader->document->background);
     json_t *extra = reader_extra(reader, &scene, scene_keys);
     reader_put(&extra, "rigs", json_incref(reader->meadows));
     reader->document->extra = reader_keep(reader, extra);
@@ -558,6 +570,12 @@ char *scene_print_for(const struct document *document, const char *folder, const
     member_number(&members, "substeps", document->substeps);
     member(&members, "frames");
     text_numbers(&text, frames, 2);
+    if (document->background.file) {
+        struct members own = {&text, "{ ", ", ", false};
+        member(&members, "background");
+        fields_print(&own, document, background_fields, &document->background, folder);
+        text_string(&text, " }");
+    }
     member(&members, "splines");
     for (int i = 0; i < document->spline_count; i++) {
         text_string(&text, i > 0 ? ",\n" : "[\n");

@@ -116,6 +116,9 @@ static const struct change {
     {small, "fps 25 keep; fps 24 keep", "s0.k1.frame=12"},
     {pinned, "fps 48 keep", "frames=[0,96]; r0.p0.frame=24.5; r0.p1.frame=60"},
     {small, "substeps 4; insert sway 12.25 0", "substeps=4; s0.k2.frame=12.25"},
+    {small, "background a.png 3", "background={'file':'a.png','offset':3}"},
+    {small, "background a.png 3; background b 0", "background={'file':'b'}"},
+    {small, "background a.png 3; background", "background="},
     {small, "range -10 30 refuse", "frames=[-10,30]"},
     {small, "set loop start free; range -10 30 refuse; range -10 31 refuse; set sway start loop", "s0.start='loop'"},
     {small, "insert sway 28 4; range 2 28 trim", "s0.k#=2; s0.k0.frame=12; s0.k1.frame=28"},
@@ -230,7 +233,7 @@ TEST(edits_without_effect_are_no_steps)
     assert_edits(json(small),
                  "move sway 0 0 0 | set sway frequency 1 | set loop start loop | track loop equilibrium sway | "
                  "name sway sway | order pluck 1 | color sway -1 | folder sway | lock sway 0 | fps 24 keep | "
-                 "substeps 1 | range 0 48 trim",
+                 "substeps 1 | range 0 48 trim | background",
                  "");
     assert_edits(json(small),
                  "joints t 3 | rename t t | angles t 1 gain 1 2 3 | bend t 0 - - - | length t 1.6 | "
@@ -300,6 +303,8 @@ static const struct refusal {
     {small, "fps 100000 keep", "at most 100000 samples a spline, got 200001"},
     {small, "fps 30 keep; insert sway 16 0; fps 10 keep", "sway: two knots would land on frame 5.333333333"},
     {small, "substeps 4; insert sway 12.25 0; substeps 1", "sway: two knots would land on frame 12.25"},
+    {small, "background a.png 1000000001", "the offset must be from -1e+09 to 1e+09"},
+    {small, "background '' 0", "\"file\" must not be empty"},
     {small, "add -1 sway 0 0", "a spline called sway already exists"},
     {small, "add -1 '' | name sway ''", "a spline needs a name"},
     {small, "add -1 - 49 0", "frame 49 is outside 0 to 48"},

@@ -157,6 +157,11 @@ static const struct kept {
      "'turn'}}], "
      "'rigs': [{'type': 'model', 'name': 'dog', 'model': 'd.glb'}]%s}",
      "{ 'model': 'd.glb', 'joint': 'head', 'of': 'turn', 'gain': 1 }%s", ""},
+    // backgrounds
+    {"{'frames': [0, 9], 'background': %s}", "'background': %s,\n",
+     "{ 'file': 'walk.mp4', 'offset': -8, 'by': 'me' }"},
+    {"{'frames': [0, 9], 'background': {'offset': 0, 'file': 'no/such'}}%s",
+     "'background': { 'file': 'no/such' },\n%s", ""},
     // knots
     {"{'frames': [0, 9], 'splines': [{'name': 's', 'knots': [%s]}]}", "'knots': [\n        %s\n",
      "{ 'frame': 2, 'settles': true, 'value': 1, 'im': -1, 'slope': 3, 'stiffness': 7 }"},
@@ -419,12 +424,15 @@ TEST_WITH(folder_make, folder_remove, a_scene_saved_elsewhere_finds_its_model)
     assert_int_equal(mkdir(folder_path("deeper"), 0777), 0);
     struct document *document = document_of_text(json(
         "{'frames': [0, 9], 'splines': [{'name': 's', 'equilibrium': {'model': 'dog.glb', 'joint': 'head', 'of': "
-        "'up'}}], 'rigs': [{'type': 'character', 'model': 'models/a.glb'}, {'type': 'model', 'model': 'dog.glb'}]}"));
+        "'up'}}], 'rigs': [{'type': 'character', 'model': 'models/a.glb'}, {'type': 'model', 'model': 'dog.glb'}], "
+        "'background': {'file': 'films/walk.mp4'}}"));
     document->folder = strdup(folder);
     assert_done(scene_save(document, path, &error));
     assert_string_equal(document_character(document, 0)->model, "models/a.glb");
     struct document *loaded = document_of_file(path);
-    assert_file_says(loaded, "r0.model='../models/a.glb'; s0.equilibrium.model='../dog.glb'", "saved elsewhere");
+    assert_file_says(
+        loaded, "r0.model='../models/a.glb'; s0.equilibrium.model='../dog.glb'; background.file='../films/walk.mp4'",
+        "saved elsewhere");
     assert_true(path_resolve(loaded->folder, document_character(loaded, 0)->model, absolute));
     assert_string_equal(absolute, folder_path("models/a.glb"));
     document_destroy(document);
