@@ -144,6 +144,8 @@ expect 0 "saved in another folder it finds its model" wiggly check deep/result.j
 holds "by a path from there" [ -f "deep/$(sed -n 's/.*"model": "\(.*\)",/\1/p' deep/result.json)" ]
 cp "$scenes/up-down.json" lost.json
 tells 1 "a missing model is a problem" "creature.glb: " wiggly check lost.json
+echo '{"frames": [0, 1], "background": {"file": "gone.mp4"}}' >gone.json
+tells 1 "and a missing background" "/gone.mp4: the background is missing" wiggly check gone.json
 expect 0 "the scene opens all the same" session lost.json "9 key Space"
 says "and keeps its model's name" '"coordinates"' "$(<deep/result.json)"
 sed 's|"model": ".*"|"model": "cut.glb"|' lost.json >cut.json

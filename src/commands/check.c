@@ -46,13 +46,14 @@ int command_check(int argc, char **argv)
         return 0;
     }
 
-    // It goes on where paint, a model, or something the scene names in one is missing.
+    // It goes on where paint, a model, something the scene names in one, or the background is missing.
     struct problems problems = {.report = print_problem};
     struct opened opened = {.document = scene_load(path, &problems, &error)};
     if (!opened.document) return (int)error.kind;
     opened.models = models_create();
-    const bool good =
-        scene_read_paint(opened.document, &error) && models_update(opened.models, opened.document, &error);
+    const bool good = scene_read_paint(opened.document, &error) &&
+                      models_update(opened.models, opened.document, &error) &&
+                      background_follow(models_background(opened.models), opened.document, false, &error);
     if (!good) print_line(stdout, "%s: %s", path, error.text);
 
     const struct document *document = opened.document;

@@ -322,9 +322,17 @@ struct models {
     struct character_model *characters; ///< in the order of the document
     int character_count;
     uint64_t version;
+    struct background *background;
 };
 
-struct models *models_create(void) { return need_zeroed(1, sizeof(struct models)); }
+struct models *models_create(void)
+{
+    struct models *models = need_zeroed(1, sizeof *models);
+    models->background = background_create();
+    return models;
+}
+
+struct background *models_background(const struct models *models) { return models ? models->background : NULL; }
 
 static void drop_characters(struct models *models)
 {
@@ -358,6 +366,7 @@ void models_destroy(struct models *models)
     for (int i = 0; i < models->file_count; i++) file_destroy(models->files[i]);
     free(models->files);
     free(models->characters);
+    background_destroy(models->background);
     free(models);
 }
 

@@ -5,6 +5,7 @@
 
 #include "model/figure.h"
 #include "model/gltf.h"
+#include "rig/background.h"
 #include "scene/document.h"
 
 // --- imported characters
@@ -103,6 +104,9 @@ uint64_t models_version(const struct models *models);
 
 /// The model of a model rig, or the fox of a tail; NULL: neither, or it could not be read. `models` may be NULL.
 const struct imported *models_imported(const struct models *models, const struct document *document, int rig);
+
+/// The picture or film behind the stage. `models` may be NULL; then so is this.
+struct background *models_background(const struct models *models);
 
 /// An imported character's poses: the shown one, one shown beside it, and any other.
 enum pose_memory { POSE_UNSEEN, POSE_SHOWN, POSE_BESIDE, POSE_MEMORIES };

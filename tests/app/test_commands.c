@@ -184,6 +184,7 @@ static const struct {
      "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"limits\": [-1, 1], \"knots\": "
      "[{\"frame\": 0, \"value\": 0}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\", "
      "\"pins\": [{\"frame\": 20, \"joint\": 23, \"to\": [0, 9, 0]}]}]}"},
+    {"gone.json", "{\"frames\": [0, 1], \"background\": {\"file\": \"gone.mp4\"}}"},
     {"sunk.json", "{\"frames\": [0, 24], \"splines\": [{\"name\": \"up\", \"frequency\": 1, \"knots\": [{\"frame\": "
                   "0, \"value\": 0}, {\"frame\": 20, \"value\": -8}]}], \"rigs\": [{\"type\": \"character\", "
                   "\"name\": \"soft\", \"model\": \"assets/models/creature.glb\", \"floor\": 0, \"coordinates\": "
@@ -449,6 +450,7 @@ static const struct {
      "pinned.json: rigs[0].pins[0]: the point stays 9.|splines[0].limits: ignored, because pins or a floor move this "
      "spline"},
     {0, "solve pinned.json", "warning: rigs[0].pins[0]: the point stays 9."},
+    {0, "solve gone.json", "frame\n0\n1\n"},
     {0, "check sunk.json", "sunk.json: rigs[0].floor: knots and pins hold the character up to "},
     {0, "check tests/vectors/loop_moving_equilibrium.json",
      "the equilibrium of this loop does not end where it starts"},
