@@ -248,7 +248,8 @@ static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
     bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->work.editor) || app->paste ||
-                  app->export_job || app->demo.on || app->fetches;
+                  app->export_job || app->demo.on || app->fetches ||
+                  background_is_behind(models_background(app->work.models));
     app->was_idle = !wanted;
 
     // The next frame waits for input until it is due, or longer if nothing moves. A live recording never skips frames, because its clock
@@ -351,6 +352,9 @@ void app_frame(struct app *app)
         app->fetches |= document_model_path(work->document, r, path) && platform_fetches(path);
     }
     if (app->failed || app->fetches) return;
+    struct error error;
+    if (!background_follow(models_background(work->models), work->document, !app->fixed_clock, &error))
+        editor_message(work->editor, true, "%s", error.text);
     workspace_solve(work, row);
     workspace_pose(work, row);
     app->figures.stage_scale =

@@ -1,6 +1,7 @@
 /// Films a scene: chooses frames and size, draws the pictures and writes them as .gif, with ffmpeg or as numbered files.
 #include "app/film.h"
 #include "base/file.h"
+#include "base/names.h"
 #include "base/need.h"
 #include "base/png.h"
 #include "draw/draw.h"
@@ -708,8 +709,10 @@ struct film {
     bool transparent;
     double first, spacing,
         period; ///< frames: the first picture's, the step, and the loop's length (0: no loop)
+    const struct opened *opened;
     struct editor *editor;
     struct picture *picture;
+    struct error note; ///< of the background
     struct film_file *file;
     const unsigned char *pixels; ///< drawn but not yet written, else NULL
     long drawn, done;            ///< pictures
@@ -766,6 +769,7 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
     film->format = export_format(path);
     film->kind = writers[film->format->film].kind;
     film->path = path;
+    film->opened = opened;
     film->editor = editor_create(NULL);
     if (file_check_place(path, error) && choose_shape(film, opened->document, options, error) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
@@ -783,6 +787,7 @@ static void draw_next(struct film *film)
 {
     const double since = (double)film->drawn++ * film->spacing;
     const double frame = film->first + (film->period > 0 ? fmod(since, film->period) : since);
+    background_follow(models_background(film->opened->models), film->opened->document, false, &film->note);
     editor_pose_alone(film->editor, frame, (float)film->shape.width, (float)film->shape.height);
     picture_draw(film->picture, editor_stage(film->editor), film->transparent);
 }
@@ -817,6 +822,8 @@ void film_report(const struct film *film, struct export_report *report)
     if (film->kind == &film_png && film->shape.count > 1 && !strchr(name, '%'))
         snprintf(names, sizeof names, ", as %.*s-0001.png and so on", (int)fmin(30, (double)strlen(name) - 4), name);
     *report = (struct export_report){.note = ""};
+    snprintf(report->note, sizeof report->note, "%.*s", name_fit(film->note.text, sizeof report->note - 1),
+             film->note.text);
     snprintf(report->text, sizeof report->text, "%ld picture%s of %d × %d, %g a second, %.*f MB%s", film->shape.count,
              film->shape.count == 1 ? "" : "s", film->shape.width, film->shape.height, film->shape.rate,
              megabytes < 1 ? 2 : 1, megabytes, names);

@@ -29,7 +29,8 @@
     X(AT_BOTH_SIDES, both_sides)                                                                                     \
     X(AT_TOP, top)                                                                                                   \
     X(AT_BOTTOM, bottom)                                                                                             \
-    X(AT_ROWS, rows)                                                                                                 \
+    X(AT_PLACE, place)                                                                                               \
+    X(AT_FIT, fit)                                                                                                   \
     X(AT_SHADOW, shadow)
 
 #define UNIFORM_PLACE(constant, name) constant,
@@ -49,6 +50,7 @@ static const struct {
     [PROGRAM_PLAIN] = {"stage_skirt.vert", "stage_mesh.frag", NULL},
     [PROGRAM_PICTURED] = {"stage_skirt.vert", "stage_mesh.frag", "PICTURED"},
     [PROGRAM_FLAT] = {"stage_flat.vert", "stage_flat.frag", NULL},
+    [PROGRAM_BACKED] = {"stage_flat.vert", "stage_flat.frag", "BACKED"},
 };
 
 #define UNIFORM_NAME(constant, name) #name,
@@ -302,6 +304,8 @@ struct stage_renderer {
     int shown_count;
     long clock; ///< counts pictures
     GLuint white;
+    GLuint behind; ///< the background's picture
+    uint64_t behind_id;
     GLuint skirt_array, skirt_buffer, skirt_indices;
     struct skirts *skirts;
 };
@@ -600,7 +604,7 @@ void stage_renderer_destroy(struct stage_renderer *stage)
     glDeleteVertexArrays(1, &stage->flat.vertex_array);
     glDeleteBuffers(1, &stage->flat.vertices);
     for (int i = 0; i < MAX_KEPT; i++) delete_mesh(&stage->kept[i].mesh);
-    glDeleteTextures(1, &stage->white);
+    glDeleteTextures(2, (const GLuint[]){stage->white, stage->behind});
     glDeleteVertexArrays(1, &stage->skirt_array);
     glDeleteBuffers(2, (const GLuint[]){stage->skirt_buffer, stage->skirt_indices});
     free(stage->skirts);
@@ -613,6 +617,19 @@ void stage_upload(struct stage_renderer *stage, const struct stage_view *view, l
     stage->shown_count = 0;
     for (int c = 0; c < view->character_count; c++) *bytes += add_character(stage, &view->characters[c], view->eye);
     for (int m = 0; m < view->model_count; m++) *bytes += add_model(stage, &view->models[m], view->eye);
+
+    const struct png_picture *behind = &view->behind;
+    if (behind->pixels && view->behind_id != stage->behind_id) {
+        if (!stage->behind) stage->behind = gl_picture(behind->pixels, 1, 1);
+        glBindTexture(GL_TEXTURE_2D, stage->behind);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, behind->width, behind->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                     behind->pixels);
+        *bytes += 4L * behind->width * behind->height;
+        stage->behind_id = view->behind_id;
+    }
 
     // The ground is as large as the largest figure needs.
     float largest = 0.0f;
@@ -651,7 +668,7 @@ void stage_upload(struct stage_renderer *stage, const struct stage_view *view, l
 void stage_draw(struct stage_renderer *stage, const struct stage_view *view, int x, int y, int width, int height)
 {
     const float scale = (float)height / view->viewport.h, seam = 2.0f / (view->projection[5] * (float)height);
-    const struct program *program = &stage->programs[PROGRAM_FLAT];
+    const struct program *program = &stage->programs[view->behind.pixels ? PROGRAM_BACKED : PROGRAM_FLAT];
     glViewport(x, y, width, height);
     glEnable(GL_DEPTH_TEST);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -660,13 +677,18 @@ void stage_draw(struct stage_renderer *stage, const struct stage_view *view, int
     glUseProgram(program->name);
     set_srgb(program->at[AT_TOP], stage->flat.colors.top);
     set_srgb(program->at[AT_BOTTOM], stage->flat.colors.bottom);
-    glUniform2f(program->at[AT_ROWS], (float)y, 1.0f / (float)height);
+    glUniform4f(program->at[AT_PLACE], (float)x, (float)y, 1.0f / (float)width, 1.0f / (float)height);
+    if (view->behind.pixels) { // as large as fits
+        const float aspect = (float)width / (float)height * (float)view->behind.height / (float)view->behind.width;
+        glUniform2f(program->at[AT_FIT], fmaxf(aspect, 1.0f), fmaxf(1.0f / aspect, 1.0f));
+        glBindTexture(GL_TEXTURE_2D, stage->behind);
+    }
     glUniform1i(program->at[AT_SHADOW], false);
     glBindVertexArray(stage->flat.vertex_array);
     glEnable(GL_BLEND);
     glDepthFunc(GL_ALWAYS);
     glDepthRange(1, 1); // makes the quad write the largest depth, which clears it
-    glDrawArrays(GL_TRIANGLES, 0, SCENERY * FLAT_CORNERS);
+    glDrawArrays(GL_TRIANGLES, 0, (view->behind.pixels ? 1 : SCENERY) * FLAT_CORNERS); // no ground covers a picture
     glUniform1i(program->at[AT_SHADOW], true);
     glDrawArrays(GL_TRIANGLES, SCENERY * FLAT_CORNERS, (stage->flat.quads - SCENERY) * FLAT_CORNERS);
     glDisable(GL_BLEND);

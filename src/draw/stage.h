@@ -14,6 +14,7 @@ enum stage_program {
     PROGRAM_PLAIN,    ///< opaque surfaces without mask or picture; cheaper per pixel
     PROGRAM_PICTURED, ///< all other meshes, and all skirts except coats'
     PROGRAM_FLAT,
+    PROGRAM_BACKED, ///< PROGRAM_FLAT with a picture behind
     PROGRAMS
 };
 

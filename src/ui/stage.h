@@ -3,6 +3,7 @@
 #define UI_STAGE_H
 
 #include "base/hash.h"
+#include "base/png.h"
 #include "model/figure.h"
 #include "model/fox.h"
 #include "model/gltf.h"
@@ -44,7 +45,9 @@ struct stage_view {
     float middle[2];      ///< x and z of the lit ground's middle
     float key_from[3];    ///< unit vector towards the key light, world
     struct stage_colors colors;
-    bool has_tail; ///< the ground is never small
+    struct png_picture behind; ///< the background's; without pixels: none
+    uint64_t behind_id;        ///< another one for other pixels
+    bool has_tail;             ///< the ground is never small
     struct stage_character characters[STAGE_MAX_CHARACTERS];
     int character_count;
     struct stage_model models[STAGE_MAX_MODELS];
@@ -61,7 +64,7 @@ static inline void stage_add_blob(struct stage_view *view, float x, float z, flo
         view->blobs[view->blob_count++] = (struct shadow_blob){x, z, radius, strength};
 }
 
-/// Hash of viewport, camera, light and colours.
+/// Hash of viewport, camera, light, colours and background.
 static inline uint64_t stage_scenery_hash(const struct stage_view *view)
 {
     uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);
@@ -69,6 +72,7 @@ static inline uint64_t stage_scenery_hash(const struct stage_view *view)
     hash = hash_bytes(hash, view->projection, sizeof view->projection);
     hash = hash_bytes(hash, view->middle, sizeof view->middle);
     hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
+    hash = hash_word(hash, view->behind.pixels ? view->behind_id : 0);
     return hash_bytes(hash, &view->colors, sizeof view->colors);
 }
 

@@ -104,6 +104,31 @@ TEST(ground_and_background)
 
 /// Without multisampling: coming from the left, edges of the animal cross rows of pixels at any fraction of a pixel, so
 /// that the first pixel that differs from the background is as often weak as strong.
+/// It fits into the stage, its top row at the top, half as strong; without it all is as before.
+TEST(a_picture_is_behind_it)
+{
+    static const unsigned char pixels[2][4] = {{255, 0, 0, 255}, {0, 0, 255, 0}}; // red above what is not there
+    const float far[3] = {0, 0, -900};
+    if (!platform) skip();
+    look_at(&view, far, far, &shot);
+    view.colors.ground = view.colors.top = view.colors.bottom = 0x204060FF;
+    shoot(&view, &shot);
+    const struct shot before = shot;
+    view.behind = (struct png_picture){1, 2, 4, pixels[0]};
+    view.behind_id = 7;
+    shoot(&view, &shot);
+    for (int k = 0; k < 3; k++) {
+        const int plain[] = {0x20, 0x40, 0x60}, mixed = (plain[k] + pixels[0][k]) / 2;
+        assert_near(pixel_at(&shot, 500, 390)[k], mixed, 2);
+        assert_near(pixel_at(&shot, 450, 390)[k], mixed, 2); // 200 wide, about 500
+        assert_near(pixel_at(&shot, 380, 390)[k], plain[k], 2);
+        assert_near(pixel_at(&shot, 500, 10)[k], plain[k], 2);
+    }
+    view.behind = (struct png_picture){0};
+    shoot(&view, &shot);
+    assert_int_equal(differing(&before, &shot, 0), 0);
+}
+
 TEST(silhouettes_are_soft)
 {
     int rows = 0, shares[4] = {0};

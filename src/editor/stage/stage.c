@@ -408,6 +408,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     view->has_tail = stage->tail_count > 0;
     view->viewport = core->view.layout.stage;
     view->colors = theme()->stage;
+    view->behind = background_at(models_background(core->models), core_frame(core), &view->behind_id);
     camera_reshape(&core->view.camera, view->viewport.w / view->viewport.h);
     camera_matrices(&core->view.camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = stage_scenery_hash(view);
