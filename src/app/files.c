@@ -401,6 +401,7 @@ static bool may_replace(struct app *app, const struct request *request, struct e
     bool is_read = request->kind == REQUEST_EXPORT && file_same(request->path, app_path(app));
     for (int r = 0; r < document->rig_count && !is_read; r++)
         is_read = document_model_path(document, r, path) && file_same(request->path, path);
+    is_read |= document_background_path(document, path) && file_same(request->path, path);
     if (is_read)
         return fail(error, ERROR_INPUT, "%s: this scene is read from it: choose another name", request->path);
     if (!place_file(app, request->path, path, error) || !file_check_unread(path, error)) return false;
@@ -461,12 +462,21 @@ static bool do_request(struct app *app, const struct request *request, struct er
         return true;
     case REQUEST_ADD: {
         editor_let_go(app->work.editor);
-        history_begin(app->work.history, "Add character", 0);
-        const bool added = import_add(app->work.document, request->path, request->number, error);
+        struct document *document = app->work.document;
+        const bool behind = background_suits(request->path);
+        char whole[PATH_LIMIT], file[PATH_LIMIT]; // relative even where it is chosen by its whole path
+        if (!path_resolve(NULL, request->path, whole) || !path_rebase(whole + 1, "/", document->folder, file))
+            strcpy(file, request->path);
+        if (!*file) strcpy(file, "."); // the scene's own folder
+        history_begin(app->work.history, behind ? "Set background" : "Add character", 0);
+        const bool added =
+            behind ? edit_background(document, &(struct background_file){.file = file}, error) &&
+                         background_follow(models_background(app->work.models), document, !app->fixed_clock, error)
+                   : import_add(document, request->path, request->number, error);
         if (!added) history_restart(app->work.history);
         history_end(app->work.history);
         editor_refresh(app->work.editor);
-        if (added) editor_show_last(app->work.editor);
+        if (added && !behind) editor_show_last(app->work.editor);
         return added;
     }
     case REQUEST_SAVE:
@@ -572,7 +582,8 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
         snprintf(path, sizeof path, "%s/%s", folder[0] ? folder : ".", entry->d_name);
         if (entry->d_name[0] == '.' || strlen(entry->d_name) > 254 || stat(path, &status) != 0) continue;
         bool is_folder = S_ISDIR(status.st_mode);
-        if (is_folder || path_has_end(path, ".json") || path_has_end(path, ".glb") || path_has_end(path, ".gltf"))
+        if (is_folder || path_has_end(path, ".json") || path_has_end(path, ".glb") || path_has_end(path, ".gltf") ||
+            background_suits(path))
             snprintf(names[count++], 256, "%.254s%s", entry->d_name, is_folder ? "/" : "");
     }
     closedir(directory);

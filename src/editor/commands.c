@@ -424,6 +424,8 @@ const struct command commands[] = {
     PALETTE("Add a tail", NOTHING, .inspector = inspector_add, ADD_TAIL),
     ALSO("import load", "Add a character or model from a file", NOTHING, 0, NOTHING, 0, .inspector = inspector_add,
          ADD_FILE, {0}),
+    ALSO("reference footage video image", "Background picture or film", NOTHING, 0, NOTHING, 0,
+         .inspector = inspector_add, ADD_FILE, {0}),
     PALETTE("Copy the rig", RIG, .inspector = inspector_add, ADD_COPY),
     PALETTE("Feel like a cat's tail", SPLINE, .inspector = inspector_preset, 0),
     PALETTE("Feel like a whip", SPLINE, .inspector = inspector_preset, 1),

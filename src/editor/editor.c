@@ -10,6 +10,7 @@
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
 #include "editor/state.h"
+#include "rig/background.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -468,7 +469,9 @@ static void pass_on(struct editor *editor, const struct event *event)
         break;
     case EVENT_DROP:
         snprintf(request.path, sizeof request.path, "%s", event->path ? event->path : "");
-        editor_leave(editor, &request);
+        if (background_suits(request.path)) request.kind = REQUEST_ADD;
+        if (request.kind == REQUEST_ADD) core_request(&editor->core, &request);
+        if (request.kind == REQUEST_OPEN) editor_leave(editor, &request);
         break;
     default:
         break;

@@ -431,16 +431,16 @@ TEST(what_the_scene_is_read_from_stays)
     static const struct {
         enum request_kind kind;
         const char *name;
-    } rows[] = {{REQUEST_EXPORT, "dog.glb"},
-                {REQUEST_EXPORT, "linked.glb"},
-                {REQUEST_SAVE_AS, "dog.glb"},
-                {REQUEST_SAVE_AS, "linked.glb"},
-                {REQUEST_EXPORT, "walk.csv"}};
+    } rows[] = {{REQUEST_EXPORT, "dog.glb"},     {REQUEST_EXPORT, "linked.glb"}, {REQUEST_SAVE_AS, "dog.glb"},
+                {REQUEST_SAVE_AS, "linked.glb"}, {REQUEST_EXPORT, "walk.csv"},   {REQUEST_EXPORT, "back.png"}};
     struct blind b;
     char own[128];
     folder_run("cp assets/models/dog.glb %s && ln -s dog.glb %s/linked.glb");
-    strcpy(own, folder_file("walk.csv", "{\"wiggly\": 1, \"frames\": [0, 9], \"rigs\": "
-                                        "[{\"type\": \"model\", \"model\": \"dog.glb\"}]}"));
+    strcpy(own,
+           folder_file("walk.csv",
+                       "{\"wiggly\": 1, \"frames\": [0, 9], \"rigs\": "
+                       "[{\"type\": \"model\", \"model\": \"dog.glb\"}], \"background\": {\"file\": \"back.png\"}}"));
+    folder_run("cp assets/pictures/pull.png %s/back.png");
     const uint64_t model = file_content(folder_path("dog.glb")), before = file_content(own);
     blind_open(&b, own);
     blind_frame(&b);
@@ -449,6 +449,64 @@ TEST(what_the_scene_is_read_from_stays)
         assert_true(file_content(folder_path("dog.glb")) == model && file_content(own) == before);
     }
     ask(&b, REQUEST_EXPORT, folder_path("other.glb"), "Wrote");
+    blind_close(&b);
+}
+
+/// What is dropped on the window: a picture, a film or a folder of pictures goes behind the scene, by a path from its folder.
+TEST(a_background_is_added)
+{
+    static const unsigned char pixel[4] = {9, 9, 9, 255};
+    static const struct {
+        const char *name, *file, *says;
+    } rows[] = {{"back.png", "back.png", ""},
+                {"walk", "walk", ""},
+                {"none", "walk", "/none: the background is missing: expected a picture, a film or a folder of .png"},
+                {"gone.png", "walk", "/gone.png: the background is missing"},
+                {"walk.txt", "walk", ""},
+                {"", ".", ""}};
+    struct blind b;
+    char own[128];
+    folder_run("mkdir %s/walk %s/none");
+    assert_done(png_write(folder_path("walk/1.png"), 1, 1, pixel, &error));
+    assert_done(png_write(folder_path("back.png"), 1, 1, pixel, &error));
+    strcpy(own, folder_file("new.json", "{\"wiggly\": 1, \"frames\": [0, 9]}"));
+    blind_open(&b, own);
+    const struct document *document = b.app.work.document;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        blind_drop(&b, folder_path(rows[i].name));
+        blind_frame(&b);
+        assert_string_equal(document->background.file, rows[i].file);
+        if (!strstr(said(e(&b)), rows[i].says)) fail_msg("\"%s\" lacks \"%s\"", said(e(&b)), rows[i].says);
+        blind_key(&b, KEY_ESCAPE, 0); // whether to save
+    }
+    blind_frame(&b);
+    assert_true(editor_stage(e(&b))->behind.pixels != NULL);
+    blind_key(&b, 'Z', MOD_CTRL);
+    assert_string_equal(document->background.file, "walk");
+    blind_key(&b, 'Z', MOD_CTRL);
+    assert_string_equal(document->background.file, "back.png");
+    blind_key(&b, 'Z', MOD_CTRL);
+    assert_null(document->background.file);
+    blind_frame(&b);
+    assert_null(editor_stage(e(&b))->behind.pixels);
+    blind_close(&b);
+}
+
+/// A scene whose background is missing opens all the same, says so once, and keeps the entry.
+TEST(a_missing_background_is_kept)
+{
+    struct blind b;
+    char own[128];
+    strcpy(own,
+           folder_file("gone.json", "{\"wiggly\": 1, \"frames\": [0, 9], \"background\": {\"file\": \"gone.mp4\"}}"));
+    blind_open(&b, own);
+    blind_frame(&b);
+    assert_said_error(e(&b), "/gone.mp4: the background is missing");
+    hush(e(&b));
+    blind_frame(&b);
+    assert_string_equal(said(e(&b)), "");
+    ask(&b, REQUEST_SAVE, NULL, "Saved.");
+    folder_run("grep -q '\"background\": { \"file\": \"gone.mp4\" }' %s/gone.json");
     blind_close(&b);
 }
 

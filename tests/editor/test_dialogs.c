@@ -12,12 +12,13 @@ static int listings;
 
 static int list_names(void *user, const char *folder, char names[][256], int max)
 {
-    static const char *const here[] = {"selfie.json", "figures/", "figure1.json", "figure3.json", "two.json"};
+    static const char *const here[] = {"selfie.json",  "figures/", "figure1.json",
+                                       "figure3.json", "two.json", "walk.png"};
     static const char *const figures[] = {"one.json", "two.json"};
     const bool is_here = strcmp(folder, ".") == 0;
-    const int count = is_here ? 5 : strcmp(folder, "figures/") == 0 ? 2 : -1;
+    const int count = is_here ? 6 : strcmp(folder, "figures/") == 0 ? 2 : -1;
     (void)user;
-    assert_true(max >= 5);
+    assert_true(max >= 6);
     listings++;
     for (int i = 0; i < count; i++) snprintf(names[i], 256, "%s", is_here ? here[i] : figures[i]);
     return count;
@@ -50,6 +51,12 @@ WALK(test_recent_files, open_files(s, "x.json"),
      "key Down Down Enter; asks nothing; is refused /home/me/gone.json no longer exists.;"
      "type x; is refused ;" // another file: what was wrong with that one is off the screen
      "key Backspace Up Enter; asks open /home/me/scenes/walk.json")
+
+/// A picture, or a folder of them, is neither opened nor saved over, but added.
+WALK(test_backgrounds_are_added, open_files(s, "x.json"),
+     "key Ctrl+O; type walk; is matches 1; key Escape; key F3; type reference; key Enter; is asked add;"
+     "is matches 2; key Down Enter; is typed figures/; key Enter; asks add figures/; answer add no; is refused no;"
+     "key Escape F3; type video; key Enter; type wa; is matches 1; key Enter; asks add walk.png")
 
 /// Typing filters them as it filters the folder's names, and they are not offered for saving.
 WALK(test_recent_files_are_filtered, open_files(s, "x.json"),

@@ -470,6 +470,13 @@ SESSION_TEST(test_the_wheel_over_the_history, open_list(s, 40))
     hands(s, "wheel 1; is scrolled < kept");
 }
 
+WALK(test_the_background,
+     panel_open(s, "{'frames': [0, 9], 'background': {'file': 'films/walk.mp4', 'mine': 1}}", 1280, 1500),
+     "more; click section.scene; shows walk.mp4; keep; enter background.offset -12; is background.offset -12;"
+     "label Move background; undone;"
+     "click background.delete; is background nothing; hides walk.mp4; lacks widget(background.offset);"
+     "label Remove background; undone; is background.mine 1")
+
 /// The list says what it does not have any more.
 SESSION_TEST(test_a_history_that_has_dropped_steps, open_list(s, 0))
 {

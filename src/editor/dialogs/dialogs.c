@@ -4,6 +4,7 @@
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/state.h"
+#include "rig/background.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 #include <math.h>
@@ -653,7 +654,8 @@ static void dialog_match(struct dialog *dialog)
         for (int at = 0; at < dialog->name_count; at++) {
             const char *candidate = dialog->names[at];
             const enum fit fit = ui_filter_fit(&filter, candidate);
-            if (dialog->kind == DIALOG_ADD && path_has_end(candidate, ".json")) continue;
+            const bool behind = background_suits(candidate) && candidate[strlen(candidate) - 1] != '/';
+            if (dialog->kind == DIALOG_ADD ? path_has_end(candidate, ".json") : behind) continue;
             if (fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0)) dialog->match[dialog->match_count++] = at;
         }
     }
@@ -706,7 +708,7 @@ static void confirm(struct dialogs *dialogs)
     const char *typed = dialog->ui.text.bytes;
     bool saving = dialog->kind == DIALOG_SAVE_AS;
     if (is_question(dialog)) return;
-    if (!*path_name(typed)) {
+    if (!*path_name(typed) && !(dialog->kind == DIALOG_ADD && *typed)) { // a folder of pictures may be added
         snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
         return;
     }
@@ -871,7 +873,7 @@ static void build_path(struct dialogs *dialogs)
     struct ui *ui = &dialog->ui;
     bool saving = dialog->kind == DIALOG_SAVE_AS, adding = dialog->kind == DIALOG_ADD;
     const char *title = saving   ? "Save the scene as"
-                        : adding ? "Add a character or model (.glb, .gltf)"
+                        : adding ? "Add a character or model; a picture, film or folder of pictures goes behind"
                                  : "Open a scene or character";
     ui_label(ui, ui_row(ui, UI_ROW), title, theme()->text);
     ui_space(ui, 4);

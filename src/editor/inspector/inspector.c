@@ -601,9 +601,39 @@ void inspector_edit_range(struct inspector *in, int unused)
     in->ui.focus = ui_id(&in->ui, scene_rows[ROW_LAST].ui.name);
 }
 
+static bool set_offset(struct inspector *in, int which, double number, struct error *error)
+{
+    struct background_file changed = in->core->document->background;
+    (void)which;
+    changed.offset = (int)lround(number);
+    return edit_background(in->core->document, &changed, error);
+}
+
 void inspector_scene(struct inspector *in)
 {
+    static const struct number_row offset = {WHOLE_AT(struct background_file, offset), .undo = "Move background",
+                                             .ui = {NAMED("background.offset", "offset"),
+                                                    .hint = "The picture that the background shows at frame 0",
+                                                    TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .step = 1}};
+    static const struct row remover = {ICON("background.delete", UI_ICON_DELETE), .hint = "Remove the background",
+                                       .undo = "Remove background"};
     if (in->core->view.layout.range.w == 0) inspector_range(in);
+
+    const struct background_file *background = &in->core->document->background;
+    static const struct row adder = {NAMED("background.add", "Background picture or film"),
+                                     .hint = "What stands behind the stage; you can also drop it on the window"};
+    if (!background->file) {
+        if (inspector_button(in, ui_row(&in->ui, UI_ROW), &adder)) inspector_add(in, ADD_FILE);
+        return;
+    }
+    struct rect r = inspector_labelled(in, "background");
+    const struct rect icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
+    r.w -= INSPECTOR_ICON + UI_GAP;
+    ui_label(&in->ui, r, path_name(background->file), theme()->text);
+    const bool removes = inspector_icon(in, icon, &remover);
+    inspector_number(in, &offset, &(struct number_home){.of = background, .set = set_offset}, 0,
+                     ui_row(&in->ui, UI_ROW));
+    if (removes) edit_background(in->core->document, &(struct background_file){0}, &in->core->step.error);
 }
 
 enum { HISTORY_ROWS = 9 };
