@@ -491,7 +491,7 @@ void selection_copy(struct selection *to, const struct selection *from)
 {
     selection_reserve(to, from->capacity);
     selection_clear(to);
-    if (from->bits) memcpy(to->bits, from->bits, from->capacity / 8);
+    if (from->capacity > 0) memcpy(to->bits, from->bits, from->capacity / 8);
 }
 
 /// Locked knots are not edited, and hidden ones only if they are the active spline's.
