@@ -183,7 +183,7 @@ void inspector_add(struct inspector *in, int what) { carry_out(in, (enum added)w
 static void choose_added(struct inspector *in, const struct dropdown *list)
 {
     const struct document *document = in->core->document;
-    struct ui_item items[MAX_ADDED] = {{"tail", "Tail", 0}, {"file", "Character or background from a file …", 0}};
+    struct ui_item items[MAX_ADDED] = {{"tail", "Tail", 0}, {"file", "Character or background file …", 0}};
     enum added what[MAX_ADDED] = {ADD_TAIL, ADD_FILE};
     char names[MAX_COPIES][24], labels[MAX_COPIES][ADDED_LABEL];
     int rigs[MAX_ADDED] = {0}, count = 2;
