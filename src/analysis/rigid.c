@@ -57,6 +57,9 @@ static const double straight = 1e-6;  ///< share of the squared size; a base wit
 static const double nothing = 1e-6;   ///< share of the base's size; a base that moves less rests, up to rounding
 static const double least_slow = 0.2; ///< ratio of slow to fast motion of an unknown base; less is not removed
 static const double identity = 1e-7;  ///< weight of no rotation
+static const double certain =
+    4; ///< times the power of turning that the base's residual explains; less is not removed
+static const double calm_part = 0.1; ///< of the vertices, those that move least: what a rigid motion moves, too
 
 /// Sums over the base's vertices, from the mesh at rest and from one pass over the motion.
 struct survey {
@@ -68,6 +71,7 @@ struct survey {
     double (*moment)[3][3]; ///< M per frame
     double (*mean)[3];      ///< x̄ per frame
     double *extent;         ///< per vertex: squared size of the box that it moves in
+    double scatter;         ///< Σ |x − its mean over time|² over the base and all frames
 };
 
 /// Centre and spread of the base at rest.
@@ -88,28 +92,28 @@ static double size_of(const struct survey *s) { return s->spread[0][0] + s->spre
 
 enum { PATH = 7 }; ///< x̄ of a frame, and its quaternion times twice the reach, as lengths
 
-/// Replaces each row of the path by its least-squares cubic: the slow part. False if that is small beside the rest.
-static bool keep_slow(double *path, int frames)
+/// Replaces rows of the path by least-squares polynomials: the slow part. False if that is small beside the rest.
+static bool keep_slow(double *path, int rows, int frames, int degree)
 {
     enum { POWERS = 4 };
     struct basis basis;
     double *power = need((size_t)frames, sizeof *power), along = 0, left = 0;
     basis_create(&basis, frames, POWERS);
-    for (int k = 0; k < POWERS; k++) {
+    for (int k = 0; k <= degree; k++) {
         for (int t = 0; t < frames; t++) power[t] = pow((double)t / frames, k);
         basis_append(&basis, power);
     }
-    for (double *row = path; row < path + (size_t)PATH * (size_t)frames; row += frames) {
+    for (double *row = path; row < path + (size_t)rows * (size_t)frames; row += frames) {
         double part[POWERS];
         left += basis_dot(row, row, frames);
-        for (int k = 0; k < POWERS; k++) {
+        for (int k = 0; k <= degree; k++) {
             part[k] = basis_dot(row, basis.q + (size_t)k * (size_t)frames, frames);
             left -= part[k] * part[k];
             along += k > 0 ? part[k] * part[k] : 0;
         }
         for (int t = 0; t < frames; t++) {
             row[t] = 0;
-            for (int k = 0; k < POWERS; k++) row[t] += part[k] * basis.q[k * frames + t];
+            for (int k = 0; k <= degree; k++) row[t] += part[k] * basis.q[k * frames + t];
         }
     }
     pool_free(&basis.pool);
@@ -117,12 +121,23 @@ static bool keep_slow(double *path, int frames)
     return along > least_slow * left;
 }
 
+/// The rotation by a unit quaternion.
+static void set_turn(const double q[4], double turn[3][3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        turn[a][a] = q[0] * q[0] + q[1 + a] * q[1 + a] - q[1 + b] * q[1 + b] - q[1 + c] * q[1 + c];
+        turn[a][b] = 2 * (q[1 + a] * q[1 + b] - q[0] * q[1 + c]);
+        turn[b][a] = 2 * (q[1 + a] * q[1 + b] + q[0] * q[1 + c]);
+    }
+}
+
 /// Fits all frames. Of an unknown base, only the slow part counts: the rest may be the swing.
 static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames,
                        bool known)
 {
     const double size = size_of(s), reach = sqrt(size / s->count);
-    double *path = need(PATH * (size_t)frames, sizeof *path), before[4] = {1};
+    double *path = need(PATH * (size_t)frames, sizeof *path), before[4] = {1}, turn_mean[3][3] = {{0}}, mean[3] = {0};
     for (int t = 0; t < frames; t++) {
         double q[4], k[16] = {0}, values[4], same = 0, (*m)[3] = s->moment[t];
         for (int a = 0; a < 3; a++) { // Horn's matrix
@@ -141,9 +156,24 @@ static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
             path[(3 + i) * frames + t] = (reach > 0 ? 2 * reach : 1) * before[i];
         }
         for (int a = 0; a < 3; a++) path[a * frames + t] = s->mean[t][a];
+        double turn[3][3];
+        set_turn(before, turn);
+        for (int n = 0; n < 9; n++) turn_mean[n / 3][n % 3] += turn[n / 3][n % 3] / frames;
+        for (int a = 0; a < 3; a++) mean[a] += s->mean[t][a] / frames;
     }
     rigid->base_unknown = !known;
-    const bool follows = known || keep_slow(path, frames);
+    const bool follows = known || keep_slow(path, PATH, frames, 3);
+
+    // A base whose vertices tremble seems to turn, and what is far from it swings with that. m is the mean over the frames, r' = r − r̄, x' = x − x̄,
+    // and S = Σ r' r'ᵀ. Of Σ |x' − m(x')|² the turn explains Σ |(R − m(R)) r'|² = n tr(S − m(R) S m(R)ᵀ), and what is left explains 3 of
+    // 3 N − 6 parts of itself as a turn.
+    double turning = size * frames, left = s->scatter;
+    for (int n = 0; n < 27; n++)
+        turning -= frames * turn_mean[n / 9][n / 3 % 3] * s->spread[n / 3 % 3][n % 3] * turn_mean[n / 9][n % 3];
+    for (int t = 0; t < frames; t++)
+        for (int a = 0; a < 3; a++) left -= s->count * pow(s->mean[t][a] - mean[a], 2);
+    left = fmax(left - turning, 0) / fmax(s->count - 2, 1);
+    if (known && !(turning > certain * left)) keep_slow(path + 3 * (size_t)frames, PATH - 3, frames, 0);
 
     // R and p of every frame from the path.
     double moved = 0, first[4];
@@ -159,18 +189,13 @@ static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
             first[i] = t == 0 ? q[i] : first[i];
             same += q[i] * first[i];
         }
+        set_turn(q, turn);
         for (int a = 0; a < 3; a++) {
-            const int b = (a + 1) % 3, c = (a + 2) % 3;
-            turn[a][a] = q[0] * q[0] + q[1 + a] * q[1 + a] - q[1 + b] * q[1 + b] - q[1 + c] * q[1 + c];
-            turn[a][b] = 2 * (q[1 + a] * q[1 + b] - q[0] * q[1 + c]);
-            turn[b][a] = 2 * (q[1 + a] * q[1 + b] + q[0] * q[1 + c]);
-        }
-        for (int a = 0; a < 3; a++) {
-            const double mean = path[a * frames + t];
+            const double at = path[a * frames + t];
             rigid->place[t][a] =
-                mean - turn[a][0] * s->centre[0] - turn[a][1] * s->centre[1] - turn[a][2] * s->centre[2];
-            travel += pow(mean - path[a * frames], 2);
-            away += pow(mean - s->centre[a], 2);
+                at - turn[a][0] * s->centre[0] - turn[a][1] * s->centre[1] - turn[a][2] * s->centre[2];
+            travel += pow(at - path[a * frames], 2);
+            away += pow(at - s->centre[a], 2);
         }
         rigid->travel = fmax(rigid->travel, sqrt(travel));
         rigid->angle = fmax(rigid->angle, 2 * acos(fmin(fabs(same), 1)) * 180 / M_PI);
@@ -204,7 +229,7 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
         while (slab_next(&slab, error)) {
             for (int v = slab.first / 3; v < (slab.first + slab.count) / 3; v++) {
                 const double *x = slab.numbers + 3 * v - slab.first;
-                double low[3], high[3];
+                double low[3], high[3], sum[3] = {0};
                 for (int c = 0; c < 3; c++) low[c] = INFINITY, high[c] = -INFINITY;
                 for (int t = 0; t < motion->frames; t++, x += slab.count) {
                     for (int c = 0; c < 3; c++) {
@@ -213,11 +238,17 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
                     }
                     for (int a = 0; s.base[v] && a < 3; a++) {
                         const double away = (double)rest->position[v][a] - s.centre[a];
+                        const double moved = x[a] - (double)rest->position[v][a];
+                        sum[a] += moved;
+                        s.scatter += moved * moved;
                         s.mean[t][a] += x[a] / s.count;
                         for (int b = 0; b < 3; b++) s.moment[t][a][b] += away * x[b];
                     }
                 }
-                for (int c = 0; c < 3; c++) s.extent[v] += (high[c] - low[c]) * (high[c] - low[c]);
+                for (int c = 0; c < 3; c++) {
+                    s.extent[v] += (high[c] - low[c]) * (high[c] - low[c]);
+                    s.scatter -= sum[c] * sum[c] / motion->frames;
+                }
             }
         }
         done = slab_end(&slab);
@@ -245,40 +276,64 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
     return done;
 }
 
+static int compare_sizes(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
 double rigid_share(const double complex (*shape)[3], const struct surface *rest)
 {
+    enum { TURN = 3, MOTIONS = 6, FEWEST = 4 };
     const int columns = 3 * rest->vertex_count;
+    const size_t room = (size_t)columns;
     uint8_t *used = surface_used_vertices(rest);
-    double *part = need((size_t)columns, sizeof *part), whole = 0, rigid = 0;
+    double *weights = need((MOTIONS + 2) * room, sizeof *weights), *part = weights + MOTIONS * room;
+    double *size = part + room, whole = 0, left = 0;
 
-    // An orthonormal basis of the small rigid motions of all vertices that faces use: translations, and turns e × r.
-    enum { TURN = 3, MOTIONS = 6 };
+    // Of the vertices that faces use, those that move least.
+    int count = 0;
+    for (int v = 0; v < rest->vertex_count; v++) {
+        size[v] = 0;
+        for (int c = 0; c < 3; c++) size[v] += creal(shape[v][c] * conj(shape[v][c]));
+        if (used[v]) part[count++] = size[v];
+    }
+    qsort(part, (size_t)count, sizeof *part, compare_sizes);
+    const double most = count > 0 ? part[(int)fmin(fmax(calm_part * count, FEWEST), count) - 1] : 0;
+
+    // Weights that fit small rigid motions to those: translations, and turns e × r.
     struct basis basis;
     basis_create(&basis, columns, MOTIONS);
     for (int m = 0; m < MOTIONS; m++) {
         const int a = m % 3, b = (a + 1) % 3, c = (a + 2) % 3;
         for (int v = 0; v < rest->vertex_count; v++) {
             const float *r = rest->position[v];
-            part[3 * v + a] = used[v] && m < TURN;
-            part[3 * v + b] = used[v] && m >= TURN ? -(double)r[c] : 0;
-            part[3 * v + c] = used[v] && m >= TURN ? (double)r[b] : 0;
+            const bool calm = used[v] && size[v] <= most;
+            part[3 * v + a] = calm && m < TURN;
+            part[3 * v + b] = calm && m >= TURN ? -(double)r[c] : 0;
+            part[3 * v + c] = calm && m >= TURN ? (double)r[b] : 0;
         }
         basis_append(&basis, part);
     }
-
+    basis_weights(&basis, weights);
     for (int imaginary = 0; imaginary < 2; imaginary++) {
+        double along[MOTIONS];
+        for (int n = 0; n < columns; n++)
+            part[n] = imaginary ? cimag(shape[n / 3][n % 3]) : creal(shape[n / 3][n % 3]);
+        for (size_t m = 0; m < MOTIONS; m++) along[m] = basis_dot(weights + m * room, part, columns);
         for (int n = 0; n < columns; n++) {
-            const double complex u = used[n / 3] ? shape[n / 3][n % 3] : 0;
-            part[n] = imaginary ? cimag(u) : creal(u);
+            if (!used[n / 3]) continue;
+            const int a = n % 3, b = (a + 1) % 3, c = (a + 2) % 3;
+            const float *r = rest->position[n / 3];
+            const double rigid = along[a] + along[TURN + b] * (double)r[c] - along[TURN + c] * (double)r[b];
+            whole += part[n] * part[n];
+            left += (part[n] - rigid) * (part[n] - rigid);
         }
-        whole += basis_dot(part, part, columns);
-        for (int k = 0; k < basis.count; k++)
-            rigid += pow(basis_dot(part, basis.q + (size_t)k * (size_t)columns, columns), 2);
     }
     pool_free(&basis.pool);
-    free(part);
+    free(weights);
     free(used);
-    return whole > 0 ? rigid / whole : 0;
+    return whole > 0 ? fmax(1 - left / whole, 0) : 0;
 }
 
 /// The next slab as the analysis has it: seen from the base, without each column's mean, which goes to `means` unless that is NULL.
