@@ -169,7 +169,7 @@ struct work {
     int pole_count;
     double *
         middle; ///< weights of the frames, for the position that vertices swing about; NULL by CPCA, which has the mean
-    double *weights; ///< rows over the frames: Re Ñ and Im Ñ of each component
+    double *weights; ///< rows over the frames: Re Ñ and Im Ñ of each component; then the middle's
 };
 
 static double trace(const double *gram, int frames)
@@ -179,19 +179,22 @@ static double trace(const double *gram, int frames)
     return sum;
 }
 
-/// Share of the power above `fast_from` of half the frame rate, in the discrete Fourier transform, from the sums g_d of G's diagonals.
+/// Share of the power above `fast_from` of half the frame rate, Σ_k c_kᵀ G c_k, in the discrete cosine transform
+/// c_k,t = √(2/n) cos(π k (t + ½)/n). It continues a record by its mirror image, so that a swing that is cut at the ends makes no step.
+/// From the sums of G's diagonals and antidiagonals: 2 cos a cos b = cos(a − b) + cos(a + b).
 static double fast_share(const double *gram, int frames)
 {
-    size_t n = (size_t)frames;
-    double share = 0, power = trace(gram, frames);
-    for (size_t d = 0; d < n; d++) {
-        double along = 0, kernel = 0;
-        for (size_t t = 0; t + d < n; t++) along += gram[(t + d) * n + t];
-        for (size_t k = (size_t)ceil(fast_from * frames / 2); k <= n / 2; k++)
-            kernel += (2 * k == n ? 1 : 2) * cos(2 * M_PI * (double)(k * d % n) / frames);
-        share += (d == 0 ? 1 : 2) * along * kernel / frames;
+    const size_t n = (size_t)frames;
+    double share = 0;
+    for (size_t d = 0; d < 2 * n; d++) { // t − s = d; and t + s + 1 = d
+        double sum = 0, kernel = 0;
+        for (size_t t = 0; t + d < n; t++) sum += (d == 0 ? 1 : 2) * gram[(t + d) * n + t];
+        for (size_t t = d > n ? d - n : 0; t < n && t < d; t++) sum += gram[t * n + (d - 1 - t)];
+        for (size_t k = (size_t)ceil(fast_from * frames); k < n; k++)
+            kernel += cos(M_PI * (double)(k * d % (2 * n)) / frames);
+        share += sum * kernel / frames;
     }
-    return fmax(share / power, 0);
+    return fmax(share / trace(gram, frames), 0);
 }
 
 static bool fail_frames(struct error *error, const struct motion *motion)
@@ -379,9 +382,12 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
         for (size_t t = 0; t < n; t++) to[t] -= sum * w->middle[t];
     }
 
-    // Ñ of every component, in a second pass over the motion.
-    double *combined = need(2 * count * columns, sizeof *combined);
-    done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, 2 * a->count, combined, error);
+    // Ñ of every component and the middle, in a second pass over the motion, which removes the mean.
+    double *combined = need((2 * count + 1) * columns, sizeof *combined);
+    for (size_t t = 0; t < n; t++) w->weights[2 * count * n + t] = w->middle ? w->middle[t] : 0;
+    done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, 2 * a->count + 1, combined, error);
+    for (size_t i = 0; done && i < columns; i++) a->middle[i / 3][i % 3] += combined[2 * count * columns + i];
+    a->power = w->power;
     for (size_t k = 0; done && k < count; k++) {
         struct component *c = &a->components[k];
         const double *re = combined + 2 * k * columns, *im = re + columns;
@@ -411,11 +417,11 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
                     ANALYSIS_FRAMES_MIN, motion->frames > plan->first ? motion->frames - plan->first : 0);
     const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // per pair of frames
     if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);
-    a->mean = pool_take(&a->pool, (size_t)motion->vertices, sizeof *a->mean);
+    a->middle = pool_take(&a->pool, (size_t)motion->vertices, sizeof *a->middle);
     work.gram = pool_take(&work.pool, n * n, sizeof *work.gram);
-    work.weights = pool_take(&work.pool, 2 * (size_t)plan->modes * n, sizeof *work.weights);
+    work.weights = pool_take(&work.pool, (2 * (size_t)plan->modes + 1) * n, sizeof *work.weights);
     bool done =
-        slabs_gram(lapack, motion, plan->base, work.gram, a->mean[0], error) && find_components(a, &work, error);
+        slabs_gram(lapack, motion, plan->base, work.gram, a->middle[0], error) && find_components(a, &work, error);
     pool_free(&work.pool);
     if (!done) pool_free(&a->pool);
     return done;

@@ -66,12 +66,13 @@ struct analysis_plan {
 
 struct analysis {
     struct pool pool;
-    double pca1, pca2; ///< shares of the real variance that real PCA's first and first two explain, 0 … 1
-    double (*mean)[3]; ///< each vertex's mean position, metres
+    double pca1, pca2;   ///< shares of the real variance that real PCA's first and first two explain, 0 … 1
+    double (*middle)[3]; ///< the position that each vertex swings about, metres; by CPCA its mean
     struct component *components;
     int count;
     int cancelled;     ///< poles left out because others nearly cancel them
-    double left;       ///< relative error of the motion with all components, 0 … 1
+    double power;      ///< Σ |s_t|² of the motion about its middle, m²
+    double left;       ///< relative error of that with all components, 0 … 1
     double real_left;  ///< the same with as many real principal components
     double fast_share; ///< of the motion's power above four fifths of half the frame rate, 0 … 1
 };

@@ -22,6 +22,9 @@ enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX };
 static const double recommended_bandwidth = 0.1; ///< the spline's default; an analysis of one oscillation cannot tell
 static const double fast_warning = 0.01;         ///< share of power near half the frame rate that causes a warning
 static const double rigid_warning = 0.5;         ///< share of a coordinate that is a rigid motion of a loose mesh
+static const double least_sag = 0.01;            ///< of the swing: a nearer middle leaves the mesh at rest as it is
+static const double poor = 0.4;                  ///< error of a motion for which something better is sought
+static const double better = 0.8;                ///< times that error: what is worth saying
 static const double fast_pole = 0.8;             ///< share of half the frame rate; higher frequencies cause a warning
 
 struct job {
@@ -58,6 +61,7 @@ struct analyzed {
 
 struct result {
     struct character character;
+    float (*rest)[3];          ///< the character's rest mesh, from the first motion on
     struct analyzed *analyzed; ///< one per coordinate
     int filled;                ///< coordinates so far
 };
@@ -123,7 +127,7 @@ static void warn_of_input(const struct input *in, const struct analysis *a, cons
         centre[n % 3] += at / rest->vertex_count;
     }
     for (int n = 0; n < 3 * rest->vertex_count; n++) {
-        double at = (double)rest->position[n / 3][n % 3], away = a->mean[n / 3][n % 3] - at;
+        double at = (double)rest->position[n / 3][n % 3], away = a->middle[n / 3][n % 3] - at;
         distance += away * away;
         size += (at - centre[n % 3]) * (at - centre[n % 3]);
     }
@@ -162,9 +166,69 @@ static void warn_of_input(const struct input *in, const struct analysis *a, cons
     }
 }
 
+/// The relative error of a motion from that about its middle, which is `offset` from the character's rest: Σ |middle − rest|² over
+/// frames and vertices.
+static double error_with(double left, const struct analysis *a, double offset)
+{
+    return sqrt((left * left * a->power + offset) / (a->power + offset));
+}
+
+/// Makes the first motion's middle the character's rest, if it is elsewhere, and says so. Returns the offset of any other from it.
+static double find_rest(struct result *result, const struct analysis *a, const struct input *in,
+                        const struct surface *rest)
+{
+    const bool first = !result->rest;
+    const size_t vertices = (size_t)rest->vertex_count;
+    double farthest = 0, offset = 0;
+    if (first) {
+        result->rest = need(vertices + 1, sizeof *result->rest);
+        memcpy(result->rest, rest->position, vertices * sizeof *result->rest);
+    }
+    for (size_t v = 0; v < vertices; v++) {
+        double square = 0;
+        for (int c = 0; c < 3; c++) square += pow(a->middle[v][c] - (double)result->rest[v][c], 2);
+        farthest = fmax(farthest, square);
+        offset += in->motion.frames * square;
+    }
+    if (!(offset > least_sag * least_sag * a->power)) return offset;
+    printf("  swings about a shape up to %.3g m from %s\n", sqrt(farthest),
+           first ? "the mesh at rest: it becomes the character's rest"
+                 : "the character's rest, which is the first motion's: that counts as error");
+    for (size_t n = 0; first && n < 3 * vertices; n++) result->rest[n / 3][n % 3] = (float)a->middle[n / 3][n % 3];
+    return first ? 0 : offset;
+}
+
+/// Says what would leave less of a motion that is hardly explained: more coordinates, else the other method.
+static void seek_better(const struct input *in, const struct analysis *a, double offset, const struct lapack *lapack,
+                        const struct analysis_plan *plan)
+{
+    struct analysis_plan tried = *plan, best = *plan;
+    double least = a->left;
+    for (int other = 0; other < 2 && least > poor; other++) {
+        if (other) tried.method = plan->method == ANALYSIS_CPCA ? ANALYSIS_POLES : ANALYSIS_CPCA;
+        if (tried.method == ANALYSIS_CPCA) tried.first = 0;
+        bool found = true;
+        for (tried.modes = plan->modes + !other; found && least > poor && tried.modes <= MODES_MAX; tried.modes++) {
+            struct analysis more = {0};
+            struct error ignored;
+            found = analysis_create(&more, lapack, &in->motion, &tried, &ignored) && more.count == tried.modes;
+            if (found && more.left < least) least = more.left, best = tried;
+            pool_free(&more.pool);
+        }
+    }
+    if (least < better * a->left)
+        printf("  with --modes %d%s: %.3g\n", best.modes,
+               best.method == plan->method    ? ""
+               : best.method == ANALYSIS_CPCA ? " --method cpca"
+                                              : " --method poles",
+               error_with(least, a, offset));
+    else if (a->left > poor)
+        printf("  neither more coordinates nor the other method would leave much less\n");
+}
+
 /// Keeps a motion's components as coordinates, and reports on each. Time series and knots are for the scene and the table alone.
-static void keep_components(const struct job *job, const struct analysis *analysis, const struct input *in,
-                            struct result *result)
+static void keep_components(const struct job *job, const struct analysis *analysis, double left,
+                            const struct input *in, struct result *result)
 {
     struct character *character = &result->character;
     const char *base = path_name(in->motion.path), *dot = strrchr(base, '.');
@@ -218,7 +282,7 @@ static void keep_components(const struct job *job, const struct analysis *analys
     names_free(&names);
     free(stem);
     printf("  relative error of the motion with %d coordinate%s: %.3g; as many real principal components: %.3g\n",
-           analysis->count, analysis->count > 1 ? "s" : "", analysis->left, analysis->real_left);
+           analysis->count, analysis->count > 1 ? "s" : "", left, analysis->real_left);
 }
 
 /// Writes a scene for the character file `model`, with one spline per coordinate, as many coordinates as a scene allows. The first
@@ -361,7 +425,9 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
             if (analysis.count < job->modes)
                 printf("  %d of %d coordinates: the motion has no more poles that matter\n", analysis.count,
                        job->modes);
-            keep_components(job, &analysis, &in, &result);
+            const double offset = find_rest(&result, &analysis, &in, &resting);
+            keep_components(job, &analysis, error_with(analysis.left, &analysis, offset), &in, &result);
+            seek_better(&in, &analysis, offset, &lapack, &plan);
         }
         pool_free(&analysis.pool);
         pool_free(&in.base.pool);
@@ -371,6 +437,12 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
         struct coordinate *last = &character->coordinates[--character->coordinate_count];
         free(last->re);
         free(last->im);
+    }
+
+    if (done &&
+        memcmp(result.rest, character->position, (size_t)character->vertex_count * sizeof *result.rest) != 0) {
+        memcpy(character->position, result.rest, (size_t)character->vertex_count * sizeof *result.rest);
+        character_find_normals(character);
     }
 
     // All files are written or none, though more was read than the command line named.
@@ -384,6 +456,7 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
         free(result.analyzed[i].knots.series);
     }
     free(result.analyzed);
+    free(result.rest);
     character_free(character);
     surface_free(&rest);
     lapack_unload(&lapack);

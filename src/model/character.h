@@ -43,6 +43,9 @@ struct character {
 /// Ñ and no names. False if memory is short.
 bool character_create(struct character *character, struct surface *surface, int coordinates);
 
+/// Normals from triangles, weighted by area; (0, 1, 0) for a vertex without.
+void character_find_normals(struct character *character);
+
 /// Reads a .glb or .gltf: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
 /// pairs of morph targets called NAME.re and NAME.im; without our extras their numbers are 0. Normals are computed where
 /// there are none. The first node that shows the mesh places it. Errors name the file, the place in it, what was expected and what was found.

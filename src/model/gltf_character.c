@@ -34,8 +34,12 @@ bool character_create(struct character *c, struct surface *surface, int coordina
         character_free(c);
         return false;
     }
+    character_find_normals(c);
+    return true;
+}
 
-    // Normals from triangles, weighted by area; (0, 1, 0) for a vertex without.
+void character_find_normals(struct character *c)
+{
     memset(c->normal, 0, (size_t)c->vertex_count * sizeof *c->normal);
     for (int i = 0; i + 2 < c->index_count; i += 3) {
         const uint32_t *corner = c->indices + i;
@@ -48,7 +52,6 @@ bool character_create(struct character *c, struct surface *surface, int coordina
         bool known = length > 0 && isfinite(length);
         for (int k = 0; k < 3; k++) n[k] = known ? (float)(n[k] / length) : (float)(k == 1);
     }
-    return true;
 }
 
 void character_free(struct character *c)

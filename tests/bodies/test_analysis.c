@@ -488,7 +488,7 @@ TEST(few_knots_move_it_so)
         double left = 0, whole = 0; // that error, sample by sample
         for (int n = 0; forced && n < p.frames * COLUMNS; n++) {
             const int i = n / COLUMNS, j = n % COLUMNS;
-            const double moved = driven(i, j, &p) - a.mean[j / 3][j % 3];
+            const double moved = driven(i, j, &p) - a.middle[j / 3][j % 3];
             left += pow(moved - creal(knots.series[i] * c->shape[j / 3][j % 3]), 2);
             whole += moved * moved;
         }
