@@ -10,6 +10,7 @@
 #include "model/character.h"
 #include "scene/edit.h"
 #include "scene/load.h"
+#include "scene/warnings.h"
 #include "simulation/soft.h"
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +18,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX };
+enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX, KNOTS_ADDED = 128 };
 
 static const double recommended_bandwidth = 0.1; ///< the spline's default; an analysis of one oscillation cannot tell
 static const double fast_warning = 0.01;         ///< share of power near half the frame rate that causes a warning
@@ -338,6 +339,21 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
             done = edit_knot_insert(document, i, &knot, error);
         }
     }
+
+    // Where the app would warn of a far swing or of a drift, a knot that lies on the curve and so leaves it as it is.
+    struct evaluation evaluation = {0};
+    for (int added = 0; done && added < KNOTS_ADDED; added++) {
+        struct warnings found = {0};
+        evaluation_update(&evaluation, document, false);
+        for (int i = 0; i < count; i++) warnings_add(document, &evaluation, i, &found);
+        int w = 0;
+        while (w < found.count && found.list[w].kind != WARNING_FAR && found.list[w].kind != WARNING_DRIFT) w++;
+        if (w == found.count) break;
+        const struct knot knot = {
+            .frame = found.list[w].frame, .value = found.list[w].value, .stiffness = KNOT_DEFAULT_STIFFNESS};
+        done = edit_knot_insert(document, found.list[w].spline, &knot, error);
+    }
+    evaluation_free(&evaluation);
     done = done && edit_rig_add(document, &rig, error) && scene_save(document, path, error);
     document_destroy(document);
     free(file);
