@@ -90,12 +90,15 @@ static void measure_rest(struct survey *s)
 
 static double size_of(const struct survey *s) { return s->spread[0][0] + s->spread[1][1] + s->spread[2][2]; }
 
+/// Degree of the slow part of an unknown base, and frames of the records in which it is sought; it is the highest in others.
+enum { SLOW_DEGREE = 3, LONGEST = 1024 };
+
 enum { PATH = 7 }; ///< x̄ of a frame, and its quaternion times twice the reach, as lengths
 
 /// Replaces rows of the path by least-squares polynomials: the slow part. False if that is small beside the rest.
 static bool keep_slow(double *path, int rows, int frames, int degree)
 {
-    enum { POWERS = 4 };
+    enum { POWERS = SLOW_DEGREE + 1 };
     struct basis basis;
     double *power = need((size_t)frames, sizeof *power), along = 0, left = 0;
     basis_create(&basis, frames, POWERS);
@@ -132,10 +135,63 @@ static void set_turn(const double q[4], double turn[3][3])
     }
 }
 
-/// Fits all frames. Of an unknown base, only the slow part counts: the rest may be the swing.
-static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames,
-                       bool known)
+/// R and p of every frame from the path.
+static void place_frames(struct rigid *rigid, const struct survey *s, const double *path, int frames)
 {
+    const double reach = sqrt(size_of(s) / s->count);
+    double moved = 0, first[4];
+    rigid->travel = rigid->angle = 0;
+    for (int t = 0; t < frames; t++) {
+        double q[4], square = 0, same = 0, travel = 0, away = 0, (*turn)[3] = rigid->turn[t];
+        for (int i = 0; i < 4; i++) square += pow(path[(3 + i) * frames + t], 2);
+        for (int i = 0; i < 4; i++) {
+            q[i] = path[(3 + i) * frames + t] / sqrt(square);
+            first[i] = t == 0 ? q[i] : first[i];
+            same += q[i] * first[i];
+        }
+        set_turn(q, turn);
+        for (int a = 0; a < 3; a++) {
+            const double at = path[a * frames + t];
+            rigid->place[t][a] =
+                at - turn[a][0] * s->centre[0] - turn[a][1] * s->centre[1] - turn[a][2] * s->centre[2];
+            travel += pow(at - path[a * frames], 2);
+            away += pow(at - s->centre[a], 2);
+        }
+        rigid->travel = fmax(rigid->travel, sqrt(travel));
+        rigid->angle = fmax(rigid->angle, 2 * acos(fmin(fabs(same), 1)) * 180 / M_PI);
+        moved = fmax(moved, sqrt(away) + 2 * reach * sqrt(fmax(1 - q[0] * q[0], 0)));
+    }
+    rigid->frames = moved > nothing * reach ? frames : 0;
+}
+
+/// The degree of the curve that is the slow part of an unknown base: the periods that the mesh swings by itself, seen from its own rigid
+/// motion, in the record. A curve of a higher one takes some of the swing along.
+static bool find_degree(const struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
+                        int *degree, struct error *error)
+{
+    const size_t n = (size_t)motion->frames;
+    *degree = SLOW_DEGREE;
+    if (n < ANALYSIS_FRAMES_MIN || n > LONGEST) return true;
+    double *gram = need(n * n + n, sizeof *gram), *ones = gram + n * n;
+    struct pole poles[SUBSPACE_POLES_MAX];
+    struct basis basis;
+    basis_create(&basis, motion->frames, 3);
+    for (size_t t = 0; t < n; t++) ones[t] = 1;
+    basis_append(&basis, ones);
+    const bool done = slabs_gram(lapack, motion, rigid, gram, NULL, error);
+    const int found = done ? subspace_poles(lapack, gram, motion->frames, poles) : 0;
+    if (found > 0 && exponentials_choose(poles, found, 1, 0, gram, &basis) > 0)
+        *degree = (int)fmin(fmax(round(carg(poles[0].z) * motion->frames / (2 * M_PI)), 1), SLOW_DEGREE);
+    pool_free(&basis.pool);
+    free(gram);
+    return done;
+}
+
+/// Fits all frames. Of an unknown base, only the slow part counts: the rest may be the swing.
+static bool fit_frames(struct rigid *rigid, const struct lapack *lapack, const struct survey *s,
+                       const struct motion *motion, bool known, struct error *error)
+{
+    const int frames = motion->frames;
     const double size = size_of(s), reach = sqrt(size / s->count);
     double *path = need(PATH * (size_t)frames, sizeof *path), before[4] = {1}, turn_mean[3][3] = {{0}}, mean[3] = {0};
     for (int t = 0; t < frames; t++) {
@@ -162,47 +218,30 @@ static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
         for (int a = 0; a < 3; a++) mean[a] += s->mean[t][a] / frames;
     }
     rigid->base_unknown = !known;
-    const bool follows = known || keep_slow(path, PATH, frames, 3);
-
-    // A base whose vertices tremble seems to turn, and what is far from it swings with that. m is the mean over the frames, r' = r − r̄, x' = x − x̄,
-    // and S = Σ r' r'ᵀ. Of Σ |x' − m(x')|² the turn explains Σ |(R − m(R)) r'|² = n tr(S − m(R) S m(R)ᵀ), and what is left explains 3 of
-    // 3 N − 6 parts of itself as a turn.
-    double turning = size * frames, left = s->scatter;
-    for (int n = 0; n < 27; n++)
-        turning -= frames * turn_mean[n / 9][n / 3 % 3] * s->spread[n / 3 % 3][n % 3] * turn_mean[n / 9][n % 3];
-    for (int t = 0; t < frames; t++)
-        for (int a = 0; a < 3; a++) left -= s->count * pow(s->mean[t][a] - mean[a], 2);
-    left = fmax(left - turning, 0) / fmax(s->count - 2, 1);
-    if (known && !(turning > certain * left)) keep_slow(path + 3 * (size_t)frames, PATH - 3, frames, 0);
-
-    // R and p of every frame from the path.
-    double moved = 0, first[4];
-    if (follows) {
-        rigid->turn = pool_take(&rigid->pool, (size_t)frames, sizeof *rigid->turn);
-        rigid->place = pool_take(&rigid->pool, (size_t)frames, sizeof *rigid->place);
+    rigid->turn = pool_take(&rigid->pool, (size_t)frames, sizeof *rigid->turn);
+    rigid->place = pool_take(&rigid->pool, (size_t)frames, sizeof *rigid->place);
+    bool done = true, follows = true;
+    if (known) {
+        // A base whose vertices tremble seems to turn, and what is far from it swings with that. With m the mean over the frames, r' = r − r̄,
+        // x' = x − x̄ and S = Σ r' r'ᵀ, the turn explains Σ |(R − m(R)) r'|² = n tr(S − m(R) S m(R)ᵀ) of Σ |x' − m(x')|². Of what is left,
+        // trembling in 3 N − 6 ways, 3 more would explain as much as each of those.
+        double turning = size * frames, left = s->scatter;
+        for (int n = 0; n < 27; n++)
+            turning -= frames * turn_mean[n / 9][n / 3 % 3] * s->spread[n / 3 % 3][n % 3] * turn_mean[n / 9][n % 3];
+        for (int t = 0; t < frames; t++)
+            for (int a = 0; a < 3; a++) left -= s->count * pow(s->mean[t][a] - mean[a], 2);
+        left = fmax(left - turning, 0) / fmax(s->count - 2, 1);
+        if (!(turning > certain * left)) keep_slow(path + 3 * (size_t)frames, PATH - 3, frames, 0);
+    } else {
+        int degree;
+        place_frames(rigid, s, path, frames);
+        done = find_degree(rigid, lapack, motion, &degree, error);
+        follows = done && keep_slow(path, PATH, frames, degree);
+        rigid->frames = 0;
     }
-    for (int t = 0; follows && t < frames; t++) {
-        double q[4], square = 0, same = 0, travel = 0, away = 0, (*turn)[3] = rigid->turn[t];
-        for (int i = 0; i < 4; i++) square += pow(path[(3 + i) * frames + t], 2);
-        for (int i = 0; i < 4; i++) {
-            q[i] = path[(3 + i) * frames + t] / sqrt(square);
-            first[i] = t == 0 ? q[i] : first[i];
-            same += q[i] * first[i];
-        }
-        set_turn(q, turn);
-        for (int a = 0; a < 3; a++) {
-            const double at = path[a * frames + t];
-            rigid->place[t][a] =
-                at - turn[a][0] * s->centre[0] - turn[a][1] * s->centre[1] - turn[a][2] * s->centre[2];
-            travel += pow(at - path[a * frames], 2);
-            away += pow(at - s->centre[a], 2);
-        }
-        rigid->travel = fmax(rigid->travel, sqrt(travel));
-        rigid->angle = fmax(rigid->angle, 2 * acos(fmin(fabs(same), 1)) * 180 / M_PI);
-        moved = fmax(moved, sqrt(away) + 2 * reach * sqrt(fmax(1 - q[0] * q[0], 0)));
-    }
-    rigid->frames = moved > nothing * reach ? frames : 0;
+    if (follows) place_frames(rigid, s, path, frames);
     free(path);
+    return done;
 }
 
 bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
@@ -270,7 +309,7 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
         }
         held = still_ones.count > 0 && area > straight * size * size;
     }
-    if (done && s.count > 0 && !held) fit_frames(rigid, lapack, &s, motion->frames, base);
+    if (done && s.count > 0 && !held) done = fit_frames(rigid, lapack, &s, motion, base, error);
     free(used);
     pool_free(&work);
     return done;
