@@ -7,6 +7,7 @@
 #include "commands/commands.h"
 #include "commands/companion.h"
 #include "commands/report.h"
+#include "model/adjacency.h"
 #include "model/character.h"
 #include "scene/edit.h"
 #include "scene/load.h"
@@ -26,6 +27,8 @@ static const double rigid_warning = 0.5;         ///< share of a coordinate that
 static const double least_sag = 0.01;            ///< of the swing: a nearer middle leaves the mesh at rest as it is
 static const double poor = 0.4;                  ///< error of a motion for which something better is sought
 static const double better = 0.8;                ///< times that error: what is worth saying
+static const double still = 0.01;                ///< of a coordinate's reach: a vertex that moves less is held
+static const double together = 10;               ///< degrees between the lags of parts that move as one
 static const double fast_pole = 0.8;             ///< share of half the frame rate; higher frequencies cause a warning
 
 struct job {
@@ -37,6 +40,7 @@ struct job {
     enum analysis_method method;
     int modes;
     bool no_normals;
+    double lag;           ///< degrees by which the part farthest from what holds the mesh is delayed
     double from;          ///< seconds; below 0: what the files say
     struct region pinned; ///< what `pin` says
     double directions[FILES_MAX][3];
@@ -227,6 +231,51 @@ static void seek_better(const struct input *in, const struct analysis *a, double
         printf("  neither more coordinates nor the other method would leave much less\n");
 }
 
+static double apart(const float a[3], const float b[3])
+{
+    return hypot(hypot((double)a[0] - (double)b[0], (double)a[1] - (double)b[1]), (double)a[2] - (double)b[2]);
+}
+
+/// Delays the vertices of a coordinate by their distance along the surface from those that it hardly moves: the farthest by `lag` degrees.
+static void delay(struct component *c, const struct character *character, double lag)
+{
+    struct pool pool = {0};
+    const float(*at)[3] = (const float(*)[3])character->position;
+    const struct adjacency edges = adjacency_create(&pool, at, (const float(*)[3])character->normal, c->vertices,
+                                                    character->indices, character->index_count);
+    double *size = pool_take(&pool, (size_t)c->vertices, sizeof *size),
+           *away = pool_take(&pool, (size_t)c->vertices, sizeof *away);
+    double least = INFINITY, farthest = 0;
+    for (int v = 0; v < c->vertices; v++) {
+        const double complex *n = c->shape[v];
+        size[v] = sqrt(creal(n[0] * conj(n[0]) + n[1] * conj(n[1]) + n[2] * conj(n[2])));
+        least = fmin(least, size[v]);
+    }
+    for (int v = 0; v < c->vertices; v++) away[v] = size[v] <= fmax(least, still * c->reach) ? 0 : INFINITY;
+    for (bool nearer = true; nearer;) {
+        nearer = false;
+        for (int v = 0; v < c->vertices; v++) {
+            for (int e = edges.first[v]; e < edges.first[v + 1]; e++) {
+                const uint32_t other = edges.other[e];
+                const double way = away[other] + apart(at[v], at[other]);
+                nearer |= way < away[v];
+                away[v] = fmin(away[v], way);
+            }
+        }
+    }
+    for (int v = 0; v < c->vertices; v++) farthest = isfinite(away[v]) ? fmax(farthest, away[v]) : farthest;
+    for (int v = 0; v < c->vertices; v++) {
+        int from = v; // the nearest vertex of the part that is held, for one of another part
+        for (int o = 0; !isfinite(away[v]) && o < c->vertices; o++) {
+            if (isfinite(away[o]) && (from == v || apart(at[v], at[o]) < apart(at[v], at[from]))) from = o;
+        }
+        const double complex turn = farthest > 0 ? cexp(-I * lag * M_PI / 180 * away[from] / farthest) : 1;
+        for (int k = 0; k < 3; k++) c->shape[v][k] *= turn;
+    }
+    pool_free(&pool);
+    component_lags(c);
+}
+
 /// Keeps a motion's components as coordinates, and reports on each. Time series and knots are for the scene and the table alone.
 static void keep_components(const struct job *job, const struct analysis *analysis, double left,
                             const struct input *in, struct result *result)
@@ -240,13 +289,15 @@ static void keep_components(const struct job *job, const struct analysis *analys
     for (int rank = 0; rank < analysis->count; rank++) {
         struct coordinate *to = &character->coordinates[result->filled];
         struct analyzed *analyzed = &result->analyzed[result->filled++];
-        const struct component *c = &analysis->components[rank];
+        struct component *c = &analysis->components[rank];
         to->name = need_text(names_add(&names, stem));
         to->frequency = rounded(c->frequency);
         to->damping = rounded(c->damping);
         to->explained = rounded(c->explained);
         to->pca1 = rounded(analysis->pca1);
         to->pca2 = rounded(analysis->pca2);
+        if (job->lag != 0)
+            delay(c, character, job->lag); // the knots go by the time series and the motion's own shape
         for (int n = 0; n < 3 * c->vertices; n++) {
             to->re[n / 3][n % 3] = (float)creal(c->shape[n / 3][n % 3]);
             to->im[n / 3][n % 3] = (float)cimag(c->shape[n / 3][n % 3]);
@@ -279,6 +330,8 @@ static void keep_components(const struct job *job, const struct analysis *analys
         }
         printf("    lag over the surface: from %.0f to %.0f degrees, with 5 %% of the motion beyond each end\n",
                printable_number(c->first_lag, 1), printable_number(c->last_lag, 1));
+        if (job->lag == 0 && c->last_lag - c->first_lag < together)
+            puts("    parts hardly lag: --lag 60 delays them by their distance from what holds the mesh");
     }
     names_free(&names);
     free(stem);
@@ -505,6 +558,8 @@ int command_analyze(int argc, char **argv)
          &method, 0, 0},
         {"--from S", "the second when the drive stops: poles are found from there on (the simulation's)", OPTION_REAL,
          &job.from, 0, 1e6},
+        {"--lag DEGREES", "delay parts by their distance from what holds the mesh, the farthest by so much (0)",
+         OPTION_REAL, &job.lag, -3600, 3600},
         {"--scene FILE", "also write a scene whose knots repeat the motions", OPTION_OUTPUT, &job.scene, 0, 0},
         {"--coordinates FILE", "also write the time series of each coordinate and its spline, as CSV", OPTION_OUTPUT,
          &job.coordinates, 0, 0},
