@@ -440,6 +440,7 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
 static const double near_enough = 1.02;     ///< times the component's own error: no more knots needed
 static const double close_enough = 1.05;    ///< likewise: no other kind of spline needed
 static const double worth = 1e-4;           ///< a relative change of the error that counts
+static const double half = 0.5;             ///< of what a frequency that changes explains: then one is not enough
 static const double simpler = 0.97;         ///< slopes, or real mode without lags, must reduce the error to this
 static const double slope_stiffness = 1000; ///< the format's default
 
@@ -450,7 +451,7 @@ struct knot_search {
     double fps;
     wiggly_solver *solver;
     double complex *response; ///< φ, UNKNOWNS × frames
-    double *re, *im;
+    double *re, *im, *track;  ///< the frequency of every frame
 };
 
 /// x for these knots; false if the solver fails.
@@ -470,6 +471,9 @@ static bool solve_curve(const struct knot_search *s, const struct knots *k, doub
     desc.step = 1 / s->fps;
     desc.mode = k->mode;
     desc.frequency.value = k->frequency;
+    if (k->last_frequency != k->frequency) desc.frequency.track = s->track;
+    for (int t = 0; desc.frequency.track && t < desc.samples; t++)
+        s->track[t] = k->frequency + (k->last_frequency - k->frequency) * t / (desc.samples - 1);
     desc.damping.value = k->damping;
     desc.bandwidth.value = k->bandwidth;
     desc.knots = knots;
@@ -544,12 +548,15 @@ static bool keep_better(const struct knot_search *s, struct knots *k, struct kno
 /// Frames from one knot to the next. A slope right beside a neighbour would have no effect.
 static int least_gap(const struct knots *k) { return k->sloped ? 3 : 1; }
 
-/// The frequency changes by a relative step, damping and bandwidth by an absolute one.
-static bool try_parameters(const struct knot_search *s, struct knots *k, double frequency, double damping,
-                           double bandwidth)
+/// The frequency changes by a relative step, damping and bandwidth by an absolute one. `last` is that at the end, if it differs.
+static bool try_parameters(const struct knot_search *s, struct knots *k, double frequency, double last,
+                           double damping, double bandwidth)
 {
     struct knots changed = *k;
-    changed.frequency = fmin(k->frequency * (1 + frequency), s->fps / 2 / (1 + k->bandwidth));
+    const double most = s->fps / 2 / (1 + k->bandwidth);
+    const bool tracked = k->last_frequency != k->frequency;
+    changed.frequency = fmin(k->frequency * (1 + frequency), most);
+    changed.last_frequency = tracked ? fmin(k->last_frequency * (1 + last), most) : changed.frequency;
     changed.damping = fmin(fmax(k->damping + damping, 0), 1);
     changed.bandwidth = fmin(fmax(k->bandwidth + bandwidth, 0), 1);
     return keep_better(s, k, &changed);
@@ -570,9 +577,10 @@ static void refine_knots(const struct knot_search *s, struct knots *k, int strid
                     const int last = knot + 1 < k->count ? k->frame[knot + 1] - gap : s->component->frames - 1;
                     if (frame >= k->frame[knot - 1] + gap && frame <= last) better |= keep_better(s, k, &changed);
                 }
-                better |= try_parameters(s, k, sign * step, 0, 0);
-                better |= try_parameters(s, k, 0, sign * step, 0);
-                if (k->mode == WIGGLY_COMPLEX) better |= try_parameters(s, k, 0, 0, sign * step);
+                better |= try_parameters(s, k, sign * step, 0, 0, 0);
+                if (k->last_frequency != k->frequency) better |= try_parameters(s, k, 0, sign * step, 0, 0);
+                better |= try_parameters(s, k, 0, 0, sign * step, 0);
+                if (k->mode == WIGGLY_COMPLEX) better |= try_parameters(s, k, 0, 0, 0, sign * step);
             }
         }
     }
@@ -613,11 +621,47 @@ static void shorten_all(double *values, int count)
     for (int i = 0; i < count && largest > 0; i++) values[i] = rounded(values[i], pow(10, 3 - floor(log10(largest))));
 }
 
-static struct knots find_knots(const struct knot_search *s, wiggly_mode mode, bool sloped)
+/// The frequencies at the first and the last frame of a swing that gets evenly faster or slower: a parabola through its phase, which is a
+/// multiple of π where s_t·Ñ, turned to where most of it is real, changes its sign. False if there are too few of these.
+static bool find_sweep(const struct knot_search *s, double frequency[2])
+{
+    enum { POWERS = 3 };
+    const struct component *c = s->component;
+    const size_t n = (size_t)c->frames;
+    double complex squares = 0;
+    double *at = need((3 + POWERS) * n, sizeof *at), *power = at + n, *phase = power + n, *weights = phase + n;
+    double rise[POWERS] = {0};
+    int count = 0;
+    for (size_t t = 0; t < n; t++) squares += c->metric.pull[t] * c->metric.pull[t];
+    for (size_t t = 0; t < n; t++) {
+        const double value = creal(c->metric.pull[t] * cexp(-I * carg(squares) / 2)),
+                     before = phase[t > 0 ? t - 1 : 0];
+        phase[t] = value;
+        if (t > 0 && (value > 0) != (before > 0)) at[count++] = (double)t - value / (value - before);
+    }
+    struct basis basis;
+    basis_create(&basis, count, POWERS);
+    for (int k = 0; k < POWERS; k++) {
+        for (int i = 0; i < count; i++) power[i] = pow(at[i], k);
+        basis_append(&basis, power);
+    }
+    basis_weights(&basis, weights);
+    for (int k = 0; k < POWERS; k++)
+        for (int i = 0; i < count; i++) rise[k] += weights[k * count + i] * i * M_PI;
+    pool_free(&basis.pool);
+    free(at);
+    for (int end = 0; end < 2; end++)
+        frequency[end] = (rise[1] + 2 * rise[2] * end * (double)(n - 1)) * s->fps / (2 * M_PI);
+    return count > POWERS && frequency[0] > 0 && frequency[1] > 0 && frequency[0] != frequency[1];
+}
+
+/// Finds knots for a swing that begins and ends with these frequencies.
+static struct knots find_knots(const struct knot_search *s, wiggly_mode mode, bool sloped, const double frequency[2])
 {
     const struct component *c = s->component;
     struct knots k = {.mode = mode,
-                      .frequency = c->frequency,
+                      .frequency = frequency[0],
+                      .last_frequency = frequency[1],
                       .damping = c->damping,
                       .bandwidth = 0.1,
                       .count = 1,
@@ -648,26 +692,37 @@ static struct knots find_knots(const struct knot_search *s, wiggly_mode mode, bo
     return k;
 }
 
+static double explained(const struct knots *k) { return 1 - k->error * k->error; }
+
 void knots_create(struct knots *k, const struct component *component, double fps)
 {
     struct knot_search s = {.component = component, .fps = fps};
     size_t n = (size_t)component->frames;
     double complex *series = need(n, sizeof *series);
     s.response = need(UNKNOWNS * n, sizeof *s.response);
-    s.re = need(2 * n, sizeof *s.re);
+    s.re = need(3 * n, sizeof *s.re);
     s.im = s.re + n;
+    s.track = s.im + n;
     if (wiggly_create((int)n, KNOTS_MOST, &s.solver) != WIGGLY_OK) need_failed();
-    *k = find_knots(&s, WIGGLY_COMPLEX, false);
+    const double one[] = {component->frequency, component->frequency};
+    double sweep[2];
+    *k = find_knots(&s, WIGGLY_COMPLEX, false, one);
     if (k->error > close_enough * component_error(component, component->series)) {
-        const struct knots sloped = find_knots(&s, WIGGLY_COMPLEX, true), stiff = find_knots(&s, WIGGLY_REAL, false);
+        const struct knots sloped = find_knots(&s, WIGGLY_COMPLEX, true, one),
+                           stiff = find_knots(&s, WIGGLY_REAL, false, one);
         prefer_knots(k, &sloped);
         prefer_knots(k, &stiff);
+    }
+    if (explained(k) < half && find_sweep(&s, sweep)) { // nothing explains more than all
+        const struct knots swept = find_knots(&s, WIGGLY_COMPLEX, false, sweep);
+        if (explained(k) < half * explained(&swept)) *k = swept;
     }
 
     // Rounds the numbers to a thousandth of the largest, as a person would write them.
     shorten_all(k->value, k->count);
     shorten_all(k->slope, k->count);
     k->frequency = rounded(k->frequency, 1e4);
+    k->last_frequency = rounded(k->last_frequency, 1e4);
     k->damping = rounded(k->damping, 1e4);
     k->bandwidth = rounded(k->bandwidth, 1e4);
     if (!solve_curve(&s, k, series)) need_failed();

@@ -91,6 +91,8 @@ enum { KNOTS_MOST = 5 };
 struct knots {
     wiggly_mode mode;                     ///< complex or real
     double frequency, damping, bandwidth; ///< Hz; ratio; fraction of the frequency
+    double
+        last_frequency; ///< Hz, at the last frame: from `frequency` at the first it changes evenly; mostly the same
     int count;
     bool sloped;                                 ///< every knot has a slope
     int frame[KNOTS_MOST];                       ///< ascending; the first is 0

@@ -317,9 +317,12 @@ static void keep_components(const struct job *job, const struct analysis *analys
         printf("    frequency %.4g Hz, damping ratio %.3g; mostly along (%.2f, %.2f, %.2f), %.3g m at most\n",
                c->frequency, c->damping, along[0], along[1], along[2], c->reach);
         if (knots) {
-            printf("    spline: \"mode\": \"%s\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %.3g, %d "
+            char last[32] = "";
+            if (knots->last_frequency != knots->frequency)
+                snprintf(last, sizeof last, " to %.4g", knots->last_frequency);
+            printf("    spline: \"mode\": \"%s\", \"frequency\": %.4g%s, \"damping\": %.3g, \"bandwidth\": %.3g, %d "
                    "knot%s\n",
-                   knots->mode == WIGGLY_REAL ? "real" : "complex", knots->frequency, knots->damping,
+                   knots->mode == WIGGLY_REAL ? "real" : "complex", knots->frequency, last, knots->damping,
                    knots->bandwidth, knots->count, knots->count > 1 ? "s" : "");
             printf(
                 "    relative error of its motion: %.3g by this spline, %.3g by the coordinate's own time series\n",
@@ -391,6 +394,25 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
                                       .stiffness = KNOT_DEFAULT_STIFFNESS};
             done = edit_knot_insert(document, i, &knot, error);
         }
+    }
+    for (int i = 0; done && i < count; i++) { // a frequency that changes is a spline of its own: a straight line
+        const struct analyzed *each = &analyzed[chosen[i]];
+        const struct param cubic = param_number(WIGGLY_CUBIC), track = param_track(document->spline_count);
+        const double end = round((each->frames - 1) * document->fps / each->fps);
+        struct knot knot = {.value = each->knots.frequency,
+                            .has_slope = true,
+                            .slope = (each->knots.last_frequency - each->knots.frequency) * document->fps / end,
+                            .stiffness = KNOT_DEFAULT_STIFFNESS};
+        char called[256];
+        if (knot.slope == 0) continue;
+        snprintf(called, sizeof called, "%.200s frequency", character->coordinates[chosen[i]].name);
+        done = edit_spline_add(document, -1, called, NULL, error) &&
+               edit_parameter(document, track.track, PARAMETER_MODE, &cubic, error) &&
+               edit_knot_insert(document, track.track, &knot, error);
+        knot.frame = end;
+        knot.value = each->knots.last_frequency;
+        done = done && edit_knot_insert(document, track.track, &knot, error) &&
+               edit_parameter(document, i, PARAMETER_FREQUENCY, &track, error);
     }
 
     // Where the app would warn of a far swing or of a drift, a knot that lies on the curve and so leaves it as it is.
