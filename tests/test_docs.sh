@@ -218,7 +218,6 @@ docs/keys.md~0.1 … 4×~src/editor/core/view.c~{0.1, 0.25, 0.5, 1, 2, 4}
 docs/keys.md~by 1 % of the view~src/editor/stage/overlays.c~NUDGE = 0.01;
 docs/keys.md~1 % of the visible values~src/editor/curves/knots.c~0.01 * hundredths * plot_height(core)
 docs/characters.md~the lowest twentieth of the height~src/commands/simulate.c~pin below a height (1/20 of the mesh)
-docs/characters.md~five knots at most~src/analysis/analysis.h~KNOTS_MOST = 5
 docs/export.md~within 1e-6~tests/README.md~| `.glb` | Blender | 1e-6 |
 docs/export.md~within 5e-4~tests/README.md~| `.usda`, scaled bones | usd-core | 5e-4 |
 docs/export.md~11 bits~src/export/usda.c~with 11 bits

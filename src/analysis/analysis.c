@@ -628,16 +628,15 @@ static bool find_sweep(const struct knot_search *s, double frequency[2])
     enum { POWERS = 3 };
     const struct component *c = s->component;
     const size_t n = (size_t)c->frames;
+    double *at = need((2 + POWERS) * n, sizeof *at), *power = at + n, *weights = power + n;
+    double rise[POWERS] = {0}, before = 0;
     double complex squares = 0;
-    double *at = need((3 + POWERS) * n, sizeof *at), *power = at + n, *phase = power + n, *weights = phase + n;
-    double rise[POWERS] = {0};
     int count = 0;
     for (size_t t = 0; t < n; t++) squares += c->metric.pull[t] * c->metric.pull[t];
     for (size_t t = 0; t < n; t++) {
-        const double value = creal(c->metric.pull[t] * cexp(-I * carg(squares) / 2)),
-                     before = phase[t > 0 ? t - 1 : 0];
-        phase[t] = value;
+        const double value = creal(c->metric.pull[t] * cexp(-I * carg(squares) / 2));
         if (t > 0 && (value > 0) != (before > 0)) at[count++] = (double)t - value / (value - before);
+        before = value;
     }
     struct basis basis;
     basis_create(&basis, count, POWERS);
@@ -646,8 +645,7 @@ static bool find_sweep(const struct knot_search *s, double frequency[2])
         basis_append(&basis, power);
     }
     basis_weights(&basis, weights);
-    for (int k = 0; k < POWERS; k++)
-        for (int i = 0; i < count; i++) rise[k] += weights[k * count + i] * i * M_PI;
+    for (int i = 0; i < POWERS * count; i++) rise[i / count] += weights[i] * (i % count) * M_PI;
     pool_free(&basis.pool);
     free(at);
     for (int end = 0; end < 2; end++)
@@ -692,8 +690,6 @@ static struct knots find_knots(const struct knot_search *s, wiggly_mode mode, bo
     return k;
 }
 
-static double explained(const struct knots *k) { return 1 - k->error * k->error; }
-
 void knots_create(struct knots *k, const struct component *component, double fps)
 {
     struct knot_search s = {.component = component, .fps = fps};
@@ -713,9 +709,10 @@ void knots_create(struct knots *k, const struct component *component, double fps
         prefer_knots(k, &sloped);
         prefer_knots(k, &stiff);
     }
-    if (explained(k) < half && find_sweep(&s, sweep)) { // nothing explains more than all
+    const double explained = 1 - k->error * k->error;
+    if (explained < half && find_sweep(&s, sweep)) { // nothing explains more than all
         const struct knots swept = find_knots(&s, WIGGLY_COMPLEX, false, sweep);
-        if (explained(k) < half * explained(&swept)) *k = swept;
+        if (explained < half * (1 - swept.error * swept.error)) *k = swept;
     }
 
     // Rounds the numbers to a thousandth of the largest, as a person would write them.

@@ -57,9 +57,8 @@ static const double straight = 1e-6;  ///< share of the squared size; a base wit
 static const double nothing = 1e-6;   ///< share of the base's size; a base that moves less rests, up to rounding
 static const double least_slow = 0.2; ///< ratio of slow to fast motion of an unknown base; less is not removed
 static const double identity = 1e-7;  ///< weight of no rotation
-static const double certain =
-    4; ///< times the power of turning that the base's residual explains; less is not removed
-static const double calm_part = 0.1; ///< of the vertices, those that move least: what a rigid motion moves, too
+static const double certain = 4;      ///< times what the residual explains of a base's turn; less is not removed
+static const double calm_part = 0.1;  ///< of the vertices, those that move least: a rigid motion moves them, too
 
 /// Sums over the base's vertices, from the mesh at rest and from one pass over the motion.
 struct survey {
@@ -165,26 +164,25 @@ static void place_frames(struct rigid *rigid, const struct survey *s, const doub
 }
 
 /// The degree of the curve that is the slow part of an unknown base: the periods that the mesh swings by itself, seen from its own rigid
-/// motion, in the record. A curve of a higher one takes some of the swing along.
-static bool find_degree(const struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
-                        int *degree, struct error *error)
+/// motion, in the record. A curve of a higher one takes some of the swing along. −1 on an error.
+static int find_degree(const struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
+                       struct error *error)
 {
     const size_t n = (size_t)motion->frames;
-    *degree = SLOW_DEGREE;
-    if (n < ANALYSIS_FRAMES_MIN || n > LONGEST) return true;
+    if (n < ANALYSIS_FRAMES_MIN || n > LONGEST) return SLOW_DEGREE;
     double *gram = need(n * n + n, sizeof *gram), *ones = gram + n * n;
     struct pole poles[SUBSPACE_POLES_MAX];
     struct basis basis;
     basis_create(&basis, motion->frames, 3);
     for (size_t t = 0; t < n; t++) ones[t] = 1;
     basis_append(&basis, ones);
-    const bool done = slabs_gram(lapack, motion, rigid, gram, NULL, error);
-    const int found = done ? subspace_poles(lapack, gram, motion->frames, poles) : 0;
+    int degree = slabs_gram(lapack, motion, rigid, gram, NULL, error) ? SLOW_DEGREE : -1;
+    const int found = degree > 0 ? subspace_poles(lapack, gram, motion->frames, poles) : 0;
     if (found > 0 && exponentials_choose(poles, found, 1, 0, gram, &basis) > 0)
-        *degree = (int)fmin(fmax(round(carg(poles[0].z) * motion->frames / (2 * M_PI)), 1), SLOW_DEGREE);
+        degree = (int)fmin(fmax(round(carg(poles[0].z) * motion->frames / (2 * M_PI)), 1), SLOW_DEGREE);
     pool_free(&basis.pool);
     free(gram);
-    return done;
+    return degree;
 }
 
 /// Fits all frames. Of an unknown base, only the slow part counts: the rest may be the swing.
@@ -233,9 +231,9 @@ static bool fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
         left = fmax(left - turning, 0) / fmax(s->count - 2, 1);
         if (!(turning > certain * left)) keep_slow(path + 3 * (size_t)frames, PATH - 3, frames, 0);
     } else {
-        int degree;
         place_frames(rigid, s, path, frames);
-        done = find_degree(rigid, lapack, motion, &degree, error);
+        const int degree = find_degree(rigid, lapack, motion, error);
+        done = degree >= 0;
         follows = done && keep_slow(path, PATH, frames, degree);
         rigid->frames = 0;
     }

@@ -53,6 +53,8 @@ struct input {
     struct companion made; ///< all zero if wiggly did not simulate it
     struct rigid base;
     double fps;
+    struct analysis_plan plan;
+    struct analysis analysis;
 };
 
 /// Analysis results of a coordinate that its file does not hold.
@@ -66,7 +68,6 @@ struct analyzed {
 
 struct result {
     struct character character;
-    float (*rest)[3];          ///< the character's rest mesh, from the first motion on
     struct analyzed *analyzed; ///< one per coordinate
     int filled;                ///< coordinates so far
 };
@@ -121,8 +122,9 @@ static bool open_input(const struct job *job, int file, const struct surface *re
 }
 
 /// Warns of what makes an analysis wrong or hard to use.
-static void warn_of_input(const struct input *in, const struct analysis *a, const struct surface *rest)
+static void warn_of_input(const struct input *in, const struct surface *rest)
 {
+    const struct analysis *a = &in->analysis;
     const char *path = in->motion.path;
 
     // A motion centred far from the rest mesh may have other axes, units or an offset.
@@ -163,57 +165,65 @@ static void warn_of_input(const struct input *in, const struct analysis *a, cons
     for (int k = 0; in->base.base_unknown && k < a->count; k++) {
         const double share = rigid_share((const double complex(*)[3])a->components[k].shape, rest);
         if (share < rigid_warning) continue;
-        print_line(
-            stderr,
-            "%s: warning: %.0f %% of coordinate %d is a rigid motion of the whole mesh; name what holds it with "
-            "--pin, or --pin none",
-            path, 100 * share, k + 1);
+        print_line(stderr,
+                   "%s: warning: %.0f %% of coordinate %d moves the whole mesh rigidly; if something carries it, "
+                   "name that with "
+                   "--pin, or remove all such motion with --pin none",
+                   path, 100 * share, k + 1);
     }
 }
 
-/// The relative error of a motion from that about its middle, which is `offset` from the character's rest: Σ |middle − rest|² over
-/// frames and vertices.
+/// Σ |middle − rest|² over vertices and frames, and the largest distance.
+static double offset_of(const double (*middle)[3], const struct character *character, int frames, double *farthest)
+{
+    double offset = *farthest = 0;
+    for (int v = 0; v < character->vertex_count; v++) {
+        double square = 0;
+        for (int c = 0; c < 3; c++) square += pow(middle[v][c] - (double)character->position[v][c], 2);
+        *farthest = fmax(*farthest, sqrt(square));
+        offset += frames * square;
+    }
+    return offset;
+}
+
+/// Gives the character the rest that the motions swing about, on average over all frames. Returns how far that is from the mesh at rest at
+/// most; 0: so near that the character keeps the mesh.
+static double find_rest(struct character *character, const struct input *in, int files)
+{
+    double(*rest)[3] = need_zeroed((size_t)character->vertex_count + 1, sizeof *rest), power = 0, farthest;
+    int frames = 0;
+    for (int f = 0; f < files; f++) frames += in[f].motion.frames;
+    for (int f = 0; f < files; f++) {
+        power += in[f].analysis.power;
+        for (int n = 0; n < 3 * character->vertex_count; n++)
+            rest[n / 3][n % 3] += in[f].analysis.middle[n / 3][n % 3] * in[f].motion.frames / frames;
+    }
+    const double offset = offset_of((const double(*)[3])rest, character, frames, &farthest);
+    const bool moves = offset > least_sag * least_sag * power;
+    for (int n = 0; moves && n < 3 * character->vertex_count; n++)
+        character->position[n / 3][n % 3] = (float)rest[n / 3][n % 3];
+    if (moves) character_find_normals(character);
+    free(rest);
+    return moves ? farthest : 0;
+}
+
+/// The relative error of a motion from that about its middle, which is `offset` from the character's rest.
 static double error_with(double left, const struct analysis *a, double offset)
 {
     return sqrt((left * left * a->power + offset) / (a->power + offset));
 }
 
-/// Makes the first motion's middle the character's rest, if it is elsewhere, and says so. Returns the offset of any other from it.
-static double find_rest(struct result *result, const struct analysis *a, const struct input *in,
-                        const struct surface *rest)
+/// Says what would leave less of a motion that is hardly explained: more coordinates, else CPCA.
+static void seek_better(const struct input *in, double offset, const struct lapack *lapack)
 {
-    const bool first = !result->rest;
-    const size_t vertices = (size_t)rest->vertex_count;
-    double farthest = 0, offset = 0;
-    if (first) {
-        result->rest = need(vertices + 1, sizeof *result->rest);
-        memcpy(result->rest, rest->position, vertices * sizeof *result->rest);
-    }
-    for (size_t v = 0; v < vertices; v++) {
-        double square = 0;
-        for (int c = 0; c < 3; c++) square += pow(a->middle[v][c] - (double)result->rest[v][c], 2);
-        farthest = fmax(farthest, square);
-        offset += in->motion.frames * square;
-    }
-    if (!(offset > least_sag * least_sag * a->power)) return offset;
-    printf("  swings about a shape up to %.3g m from %s\n", sqrt(farthest),
-           first ? "the mesh at rest: it becomes the character's rest"
-                 : "the character's rest, which is the first motion's: that counts as error");
-    for (size_t n = 0; first && n < 3 * vertices; n++) result->rest[n / 3][n % 3] = (float)a->middle[n / 3][n % 3];
-    return first ? 0 : offset;
-}
-
-/// Says what would leave less of a motion that is hardly explained: more coordinates, else the other method.
-static void seek_better(const struct input *in, const struct analysis *a, double offset, const struct lapack *lapack,
-                        const struct analysis_plan *plan)
-{
-    struct analysis_plan tried = *plan, best = *plan;
+    const struct analysis *a = &in->analysis;
+    struct analysis_plan tried = in->plan, best = tried;
     double least = a->left;
     for (int other = 0; other < 2 && least > poor; other++) {
-        if (other) tried.method = plan->method == ANALYSIS_CPCA ? ANALYSIS_POLES : ANALYSIS_CPCA;
-        if (tried.method == ANALYSIS_CPCA) tried.first = 0;
         bool found = true;
-        for (tried.modes = plan->modes + !other; found && least > poor && tried.modes <= MODES_MAX; tried.modes++) {
+        if (other) tried.method = ANALYSIS_CPCA, tried.first = 0;
+        for (tried.modes = in->plan.modes + !other; found && least > poor && tried.modes <= MODES_MAX;
+             tried.modes++) {
             struct analysis more = {0};
             struct error ignored;
             found = analysis_create(&more, lapack, &in->motion, &tried, &ignored) && more.count == tried.modes;
@@ -222,13 +232,10 @@ static void seek_better(const struct input *in, const struct analysis *a, double
         }
     }
     if (least < better * a->left)
-        printf("  with --modes %d%s: %.3g\n", best.modes,
-               best.method == plan->method    ? ""
-               : best.method == ANALYSIS_CPCA ? " --method cpca"
-                                              : " --method poles",
+        printf("  with --modes %d%s: %.3g\n", best.modes, best.method == in->plan.method ? "" : " --method cpca",
                error_with(least, a, offset));
     else if (a->left > poor)
-        printf("  neither more coordinates nor the other method would leave much less\n");
+        printf("  neither more coordinates nor --method cpca would leave much less\n");
 }
 
 static double apart(const float a[3], const float b[3])
@@ -243,15 +250,12 @@ static void delay(struct component *c, const struct character *character, double
     const float(*at)[3] = (const float(*)[3])character->position;
     const struct adjacency edges = adjacency_create(&pool, at, (const float(*)[3])character->normal, c->vertices,
                                                     character->indices, character->index_count);
-    double *size = pool_take(&pool, (size_t)c->vertices, sizeof *size),
-           *away = pool_take(&pool, (size_t)c->vertices, sizeof *away);
-    double least = INFINITY, farthest = 0;
+    double *away = pool_take(&pool, (size_t)c->vertices, sizeof *away), least = INFINITY, farthest = 0;
     for (int v = 0; v < c->vertices; v++) {
-        const double complex *n = c->shape[v];
-        size[v] = sqrt(creal(n[0] * conj(n[0]) + n[1] * conj(n[1]) + n[2] * conj(n[2])));
-        least = fmin(least, size[v]);
+        away[v] = hypot(hypot(cabs(c->shape[v][0]), cabs(c->shape[v][1])), cabs(c->shape[v][2]));
+        least = fmin(least, away[v]);
     }
-    for (int v = 0; v < c->vertices; v++) away[v] = size[v] <= fmax(least, still * c->reach) ? 0 : INFINITY;
+    for (int v = 0; v < c->vertices; v++) away[v] = away[v] <= fmax(least, still * c->reach) ? 0 : INFINITY;
     for (bool nearer = true; nearer;) {
         nearer = false;
         for (int v = 0; v < c->vertices; v++) {
@@ -277,9 +281,9 @@ static void delay(struct component *c, const struct character *character, double
 }
 
 /// Keeps a motion's components as coordinates, and reports on each. Time series and knots are for the scene and the table alone.
-static void keep_components(const struct job *job, const struct analysis *analysis, double left,
-                            const struct input *in, struct result *result)
+static void keep_components(const struct job *job, const struct input *in, double left, struct result *result)
 {
+    const struct analysis *analysis = &in->analysis;
     struct character *character = &result->character;
     const char *base = path_name(in->motion.path), *dot = strrchr(base, '.');
     const size_t length = dot ? (size_t)(dot - base) : strlen(base);
@@ -397,25 +401,25 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
     }
     for (int i = 0; done && i < count; i++) { // a frequency that changes is a spline of its own: a straight line
         const struct analyzed *each = &analyzed[chosen[i]];
+        const struct knots *knots = &each->knots;
         const struct param cubic = param_number(WIGGLY_CUBIC), track = param_track(document->spline_count);
         const double end = round((each->frames - 1) * document->fps / each->fps);
-        struct knot knot = {.value = each->knots.frequency,
-                            .has_slope = true,
-                            .slope = (each->knots.last_frequency - each->knots.frequency) * document->fps / end,
-                            .stiffness = KNOT_DEFAULT_STIFFNESS};
+        const double slope = (knots->last_frequency - knots->frequency) * document->fps / end;
         char called[256];
-        if (knot.slope == 0) continue;
+        if (slope == 0) continue;
         snprintf(called, sizeof called, "%.200s frequency", character->coordinates[chosen[i]].name);
         done = edit_spline_add(document, -1, called, NULL, error) &&
                edit_parameter(document, track.track, PARAMETER_MODE, &cubic, error) &&
-               edit_knot_insert(document, track.track, &knot, error);
-        knot.frame = end;
-        knot.value = each->knots.last_frequency;
-        done = done && edit_knot_insert(document, track.track, &knot, error) &&
                edit_parameter(document, i, PARAMETER_FREQUENCY, &track, error);
+        for (int k = 0; done && k < 2; k++) {
+            const struct knot knot = {k * end, k == 0 ? knots->frequency : knots->last_frequency, .has_slope = true,
+                                      .slope = slope, .stiffness = KNOT_DEFAULT_STIFFNESS};
+            done = edit_knot_insert(document, track.track, &knot, error);
+        }
     }
 
-    // Where the app would warn of a far swing or of a drift, a knot that lies on the curve and so leaves it as it is.
+    // Where the app would warn of a far swing or of a drift, a knot on the curve, which so stays as it is. After the last knot the curve
+    // follows one pole, from that as a pose.
     struct evaluation evaluation = {0};
     for (int added = 0; done && added < KNOTS_ADDED; added++) {
         struct warnings found = {0};
@@ -424,9 +428,20 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
         int w = 0;
         while (w < found.count && found.list[w].kind != WARNING_FAR && found.list[w].kind != WARNING_DRIFT) w++;
         if (w == found.count) break;
-        const struct knot knot = {
+        const struct spline *spline = document->splines[found.list[w].spline];
+        const struct knot *last = &spline->knots[spline->knot_count - 1];
+        struct knot knot = {
             .frame = found.list[w].frame, .value = found.list[w].value, .stiffness = KNOT_DEFAULT_STIFFNESS};
-        done = edit_knot_insert(document, found.list[w].spline, &knot, error);
+        if (knot.frame > last->frame && spline_mode(spline) == WIGGLY_COMPLEX) {
+            const int sample = document_sample(document, last->frame);
+            knot = *last;
+            knot.has_slope = false;
+            knot.has_phase = true;
+            knot.phase = evaluation.curves[found.list[w].spline].im[sample];
+            done = edit_knot_set(document, found.list[w].spline, &knot, error);
+        } else {
+            done = edit_knot_insert(document, found.list[w].spline, &knot, error);
+        }
     }
     evaluation_free(&evaluation);
     done = done && edit_rig_add(document, &rig, error) && scene_save(document, path, error);
@@ -468,6 +483,32 @@ static bool analyze_write_coordinates(const char *path, const struct character *
     return file_output_commit(&output, error);
 }
 
+/// Analyses a motion; the mesh at rest is the character's.
+static bool analyse_file(const struct job *job, int file, const struct character *character,
+                         const struct lapack *lapack, struct input *in, struct error *error)
+{
+    const struct surface resting = {.position = character->position,
+                                    .color = character->color,
+                                    .vertex_count = character->vertex_count,
+                                    .indices = character->indices,
+                                    .index_count = character->index_count};
+    if (!open_input(job, file, &resting, lapack, in, error)) return false;
+    const double driven = job->from >= 0 ? job->from * in->fps : in->made.from * in->made.fps; // frames
+    in->plan = (struct analysis_plan){
+        .method = job->method,
+        .fps = in->fps,
+        .modes = job->modes,
+        .first = job->method == ANALYSIS_CPCA ? 0 : (int)fmin(ceil(driven), ANALYSIS_FRAMES_MAX),
+        .direction = job->direction_count > 0 ? job->directions[job->direction_count > 1 ? file : 0]
+                     : in->made.frames > 0    ? in->made.shake
+                                              : NULL,
+        .base = &in->base,
+    };
+    if (!analysis_create(&in->analysis, lapack, &in->motion, &in->plan, error)) return false;
+    warn_of_input(in, &resting);
+    return true;
+}
+
 static bool analyse_files(const struct job *job, int files, struct error *error)
 {
     struct surface rest;
@@ -482,58 +523,41 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
         result.analyzed = need_zeroed((size_t)(files * job->modes), sizeof *result.analyzed);
         done = character_create(character, &rest, files * job->modes) || fail_no_memory(error, job->rest);
     }
-    for (int file = 0; done && file < files; file++) {
-        // Appends the file's coordinates.
-        const struct surface resting = {.position = character->position, // the arrays stay the character's
-                                        .color = character->color,
-                                        .vertex_count = character->vertex_count,
-                                        .indices = character->indices,
-                                        .index_count = character->index_count};
-        struct input in = {.motion.file = -1};
-        struct analysis analysis = {0};
-        done = open_input(job, file, &resting, &lapack, &in, error);
-        const bool directed = job->direction_count > 0;
-        const double driven = job->from >= 0 ? job->from * in.fps : in.made.from * in.made.fps; // frames
-        const struct analysis_plan plan = {
-            .method = job->method,
-            .fps = in.fps,
-            .modes = job->modes,
-            .first = job->method == ANALYSIS_CPCA ? 0 : (int)fmin(ceil(driven), ANALYSIS_FRAMES_MAX),
-            .direction = directed             ? job->directions[job->direction_count > 1 ? file : 0]
-                         : in.made.frames > 0 ? in.made.shake
-                                              : NULL,
-            .base = &in.base,
-        };
-        done = done && analysis_create(&analysis, &lapack, &in.motion, &plan, error);
-        if (done) {
-            warn_of_input(&in, &analysis, &resting);
-            print_line(stdout, "%s: %d frames of %d vertices at %g fps", in.motion.path, in.motion.frames,
-                       in.motion.vertices, in.fps);
-            if (in.base.frames > 0)
-                printf("  removed the motion of the %s: up to %.3g m and %.3g degrees\n",
-                       in.base.whole ? "whole mesh" : "base", printable_number(in.base.travel, 1e-4),
-                       printable_number(in.base.angle, 0.01));
-            if (analysis.count < job->modes)
-                printf("  %d of %d coordinates: the motion has no more poles that matter\n", analysis.count,
-                       job->modes);
-            const double offset = find_rest(&result, &analysis, &in, &resting);
-            keep_components(job, &analysis, error_with(analysis.left, &analysis, offset), &in, &result);
-            seek_better(&in, &analysis, offset, &lapack, &plan);
-        }
-        pool_free(&analysis.pool);
-        pool_free(&in.base.pool);
-        motion_close(&in.motion);
+    struct input in[FILES_MAX] = {0};
+    for (int f = 0; f < files; f++) in[f].motion.file = -1;
+    for (int f = 0; done && f < files; f++) done = analyse_file(job, f, character, &lapack, &in[f], error);
+    const double moved = done ? find_rest(character, in, files) : 0;
+    for (int f = 0; done && f < files; f++) { // appends the file's coordinates
+        const struct motion *motion = &in[f].motion;
+        const struct rigid *base = &in[f].base;
+        const struct analysis *a = &in[f].analysis;
+        double away;
+        const double offset = offset_of((const double(*)[3])a->middle, character, motion->frames, &away);
+        print_line(stdout, "%s: %d frames of %d vertices at %g fps", motion->path, motion->frames, motion->vertices,
+                   in[f].fps);
+        if (base->frames > 0)
+            printf("  removed the motion of the %s: up to %.3g m and %.3g degrees\n",
+                   base->whole ? "whole mesh" : "base", printable_number(base->travel, 1e-4),
+                   printable_number(base->angle, 0.01));
+        if (a->count < job->modes)
+            printf("  %d of %d coordinates: the motion has no more poles that matter\n", a->count, job->modes);
+        if (offset > least_sag * least_sag * a->power)
+            printf("  swings about a shape up to %.3g m from the character's rest: that counts as error\n", away);
+        keep_components(job, &in[f], error_with(a->left, a, offset), &result);
+        seek_better(&in[f], offset, &lapack);
+    }
+    if (moved > 0)
+        print_line(stdout, "%s: its rest is what the motion swings about, up to %.3g m from %s", job->output, moved,
+                   job->rest);
+    for (int f = 0; f < files; f++) {
+        pool_free(&in[f].analysis.pool);
+        pool_free(&in[f].base.pool);
+        motion_close(&in[f].motion);
     }
     while (done && character->coordinate_count > result.filled) { // those without poles
         struct coordinate *last = &character->coordinates[--character->coordinate_count];
         free(last->re);
         free(last->im);
-    }
-
-    if (done &&
-        memcmp(result.rest, character->position, (size_t)character->vertex_count * sizeof *result.rest) != 0) {
-        memcpy(character->position, result.rest, (size_t)character->vertex_count * sizeof *result.rest);
-        character_find_normals(character);
     }
 
     // All files are written or none, though more was read than the command line named.
@@ -547,7 +571,6 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
         free(result.analyzed[i].knots.series);
     }
     free(result.analyzed);
-    free(result.rest);
     character_free(character);
     surface_free(&rest);
     lapack_unload(&lapack);
