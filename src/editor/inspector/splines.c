@@ -152,11 +152,14 @@ static enum ui_row_event build_line(struct inspector *in, struct line line, stru
     const bool is_folded = selection_has(&core->view.folded, spline->id), is_wide = r.w > WIDE / 2.0f;
     const struct row *typed = line.is_header ? &folder_row : &rename_row;
     struct rect label = r;
-    bool chosen = true;
-    for (int s = line.first; s < line.end; s++) chosen &= core_is_chosen(core, s);
+    bool chosen = true, types = false; // types: it was the active one as this pass began, before a click made it another
+    for (int s = line.first; s < line.end; s++) {
+        chosen &= core_is_chosen(core, s);
+        types |= document->splines[s]->id == in->listed;
+    }
     const float left = SWATCH + (line.is_header || !spline->folder ? 0 : INDENT);
     if (is_wide) label = (struct rect){r.x + left, r.y, r.w - left, r.h};
-    if (has_active && ui_line_is_open(ui, typed->name)) {
+    if (types && ui_line_is_open(ui, typed->name)) {
         bool good = true;
         for (int s = inspector_line(in, label, typed) ? line.first : line.end; s < line.end; s++)
             good = (line.is_header ? edit_spline_folder : edit_spline_name)(document, s, ui->text.bytes,
@@ -207,7 +210,9 @@ static enum ui_row_event build_line(struct inspector *in, struct line line, stru
         choose_line(core, line, ui->held);
     }
     if (event == UI_ROW_TWICE || (event == UI_ROW_CLICKED && !in->adds)) choose_line(core, line, false);
-    if (event == UI_ROW_TWICE) ui_line_begin(ui, typed->name, name);
+    if (event != UI_ROW_TWICE) return event;
+    ui_line_begin(ui, typed->name, name);
+    in->listed = 0; // no other row has the line in this pass
     return event;
 }
 
