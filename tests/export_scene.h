@@ -8,6 +8,7 @@
 #include "folder.h"
 #include "model/gltf.h"
 #include "model/motion.h"
+#include "model/vector.h"
 #include "rig/models.h"
 #include <dirent.h>
 
@@ -101,7 +102,8 @@ static inline const double *frame_of(const struct points *points, int frame)
     return points->number + 3 * (ptrdiff_t)points->vertices * frame;
 }
 
-/// A glTF file's largest distance from a motion, over all vertices and coordinates, at evenly spaced times. Without a name it has one clip.
+/// A glTF file's largest distance from a motion in the node that has its mesh, over all vertices and coordinates, at evenly spaced times. Without a
+/// name it has one clip.
 static inline double glb_is_off(const char *path, const char *name, const struct points *points)
 {
     struct gltf gltf;
@@ -121,8 +123,11 @@ static inline double glb_is_off(const char *path, const char *name, const struct
         gltf_pose_clip(&gltf, clip, first + (gltf.clips[clip].last - first) * part, &pose);
         gltf_pose_world(&gltf, &pose);
         gltf_pose_vertices(&gltf, &pose, node, place, NULL);
-        for (int i = 0; i < 3 * points->vertices; i++)
-            off = fmax(off, fabs((double)place[i / 3][i % 3] - expected[i]));
+        mat4s inward = glms_mat4_inv(mat4_from(pose.world[node]));
+        for (int v = 0; v < points->vertices; v++) {
+            glm_mat4_mulv3(inward.raw, place[v], 1, place[v]);
+            for (int k = 0; k < 3; k++) off = fmax(off, fabs((double)place[v][k] - expected[3 * v + k]));
+        }
     }
     free(place);
     gltf_pose_free(&pose);

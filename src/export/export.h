@@ -70,7 +70,7 @@ struct export_options {
     int substeps;           ///< keys per frame, or 0
     bool is_signed;         ///< allows negative morph weights, which halves the number of targets
     bool all_clips;         ///< applies chains to all clips of an imported character (glTF)
-    bool as_shown;          ///< an imported character in the stage's size and place, not its file's
+    bool as_shown;          ///< the stage's size and place, not the character's file's or a cache's node's
     // films and pictures (app/film.h)
     int size[2];      ///< pixels; 0: the format's
     int loops;        ///< rounds, each without its last frame, which repeats the first; 0: one with it

@@ -104,9 +104,10 @@ static void tail_key(const struct form *form, const struct rig_pose *pose, struc
     }
 }
 
-static void tail_vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
+static void tail_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3])
 {
     const float *root = pose->model.root;
+    (void)as_shown;
     const struct gltf *gltf = &pose->model.imported->gltf;
     gltf_pose_vertices(gltf, pose->model.pose, gltf->node_count - 1, positions, NULL);
     for (int v = 0; v < form->vertex_count; v++)
@@ -177,10 +178,11 @@ static void character_key(const struct form *form, const struct rig_pose *pose, 
     }
 }
 
-static void character_vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
+static void character_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown,
+                               float (*positions)[3])
 {
-    float place[3];
-    stand(pose, place);
+    float place[3] = {0};
+    if (as_shown) stand(pose, place);
     for (int i = 0; i < form->vertex_count; i++) {
         morph_vertex(pose->character.figure, &pose->character.morph, i, positions[i], NULL);
         glm_vec3_add(positions[i], place, positions[i]);
@@ -207,6 +209,9 @@ const struct form_kind character_form = {FORM_MESH | FORM_POINTS, character_open
 
 // --- an imported character, in its file's space: its vertices, and the bones of its chains as joints
 
+/// Vertices that a part does not share with its mesh's first: a cache has a row for each of the file's.
+static int own_vertices(const struct gltf_part *part) { return part->shared ? 0 : part->vertex_count; }
+
 static bool model_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                        struct error *error)
 {
@@ -229,11 +234,16 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
             if (is_new) body->node[form->joint_count++] = bones.node[n];
         }
     }
+    int most = 0;
+    body->holder = -1;
     for (int n = 0; n < gltf->node_count; n++) {
         const int count = gltf_vertex_count(gltf, n);
-        if (count > 0) form->holder = form->vertex_count == 0 ? n : -1;
-        form->vertex_count += count;
+        if (count > most) most = count;
+        if (count > 0) body->holder = form->vertex_count == 0 ? n : -1;
+        for (int p = 0; count > 0 && p < gltf->meshes[gltf->nodes[n].mesh].part_count; p++)
+            form->vertex_count += own_vertices(&gltf->meshes[gltf->nodes[n].mesh].parts[p]);
     }
+    body->posed = pool_take(&form->pool, (size_t)most, sizeof *body->posed);
     return true;
 }
 
@@ -246,16 +256,31 @@ static void model_key(const struct form *form, const struct rig_pose *pose, stru
         memcpy(key->rotation[j], now->place[body->node[j]].rotation, sizeof key->rotation[j]);
 }
 
-/// Node by node.
-static void model_vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
+/// Node by node, each vertex of the file once.
+static void model_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3])
 {
     const struct gltf *gltf = &pose->model.imported->gltf;
-    (void)form;
+    const struct model_body *body = form->owned;
+    float(*to)[3] = positions;
     for (int n = 0; n < gltf->node_count; n++) {
-        const int count = gltf_vertex_count(gltf, n);
-        if (count > 0) gltf_pose_vertices(gltf, pose->model.pose, n, positions, NULL);
-        positions += count;
+        if (gltf_vertex_count(gltf, n) == 0) continue;
+        const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[n].mesh];
+        float(*from)[3] = body->posed;
+        gltf_pose_vertices(gltf, pose->model.pose, n, from, NULL);
+        for (const struct gltf_part *part = mesh->parts; part < mesh->parts + mesh->part_count; part++) {
+            memcpy(to, from, (size_t)own_vertices(part) * sizeof *to);
+            to += own_vertices(part);
+            from += part->vertex_count;
+        }
     }
+    const bool is_inside = !as_shown && body->holder >= 0;
+    mat4s place = as_shown    ? mat4_from(pose->model.root)
+                  : is_inside ? mat4_from(pose->model.pose->world[body->holder])
+                              : glms_mat4_identity();
+    const bool has_size = is_inside && glms_mat4_det(place) != 0.0f; // else it stays in the file's space
+    if (has_size) place = glms_mat4_inv(place);
+    for (int v = 0; (as_shown || has_size) && v < form->vertex_count; v++)
+        glm_mat4_mulv3(place.raw, positions[v], 1, positions[v]);
 }
 
 /// Its chains have the columns of a table; its own clip has none.
@@ -405,7 +430,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     struct rig_pose pose;
     const struct document *document = range->posing->document;
     const struct rig *source = document->rigs[rig];
-    *form = (struct form){.kind = kinds[source->kind], .holder = -1};
+    *form = (struct form){.kind = kinds[source->kind]};
     if (range->format->holds == FORM_JOINTS && source->kind == RIG_MODEL) form->kind = &skeleton_form;
     if (!range_pose(range, rig, 0, &pose, error)) return false;
     struct names names = {.between =

@@ -121,8 +121,7 @@ struct form {
     int target_count;
     struct form_target *targets;
     const struct character *character; ///< the targets' coordinates, or NULL
-    int holder;  ///< the node of an imported character that has all vertices, −1: none or several
-    void *owned; ///< private to the kind
+    void *owned;                       ///< private to the kind
 };
 
 /// Joints and weights at one time.
@@ -143,8 +142,9 @@ struct form_kind {
     bool (*open)(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error);
     void (*key)(const struct form *form, const struct rig_pose *pose, struct form_key *key);
-    /// Vertex positions as on the stage.
-    void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
+    /// Vertex positions in the node that has the mesh in a .glb, because programs play a point cache inside that; those of several nodes in
+    /// the file's space. Or as on the stage.
+    void (*vertices)(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3]);
     /// Numbers that move the rig at a key, always the same columns in the same order. NULL: none.
     void (*columns)(const struct export_range *range, int rig, const struct rig_pose *pose, int key,
                     form_column *column, void *user);
@@ -179,6 +179,8 @@ struct model_body {
     const struct gltf *gltf;
     const struct gltf_clip *clip; ///< the clip that plays, or NULL
     int *node;                    ///< of each joint
+    int holder;                   ///< the node that has all vertices, −1: none or several
+    float (*posed)[3];            ///< room for a node's vertices
 };
 
 // --- all keys of a rig, for animation formats

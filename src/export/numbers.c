@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/need.h"
 #include "export/form.h"
-#include "model/vector.h"
 #include "scene/text.h"
 #include <stdarg.h>
 #include <stdlib.h>
@@ -85,19 +84,7 @@ bool points_write(struct export_range *range, FILE *out, struct error *error)
         struct rig_pose pose;
         done = range_pose(range, range->rigs[0], k, &pose, error);
         if (!done) break;
-        form.kind->vertices(&form, &pose, positions);
-        const float *root = range_root(range, range->rigs[0], &pose);
-
-        // Programs play a point cache inside the node that has the mesh, so its positions are relative to that node. Those of several nodes, and
-        // of a node without a size, stay in the character's space, as an array's do; or go where the options place the character.
-        const bool is_inside = !root && form.holder >= 0 && as != MOTION_NPY;
-        mat4s place = root        ? mat4_from(root)
-                      : is_inside ? mat4_from(pose.model.pose->world[form.holder])
-                                  : glms_mat4_identity();
-        const bool has_size = is_inside && glms_mat4_det(place) != 0.0f;
-        if (has_size) place = glms_mat4_inv(place);
-        for (int v = 0; (root || has_size) && v < form.vertex_count; v++)
-            glm_mat4_mulv3(place.raw, positions[v], 1, positions[v]);
+        form.kind->vertices(&form, &pose, range->options->as_shown, positions);
         motion_print_frame(out, as, (const float(*)[3])positions, form.vertex_count);
         if (ferror(out)) break; // the caller reports the error; writing on to a full disk is useless
         done = range_proceed(range, error);

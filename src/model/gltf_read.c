@@ -319,8 +319,9 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
     part->index_count = kept;
     if (part->index_count == 0) return gltf_not_shown(r, "triangles without area");
     part->has_polygons = json_object_get(extensions, GLTF_POLYGONS);
+    const json_t *targets = json_object_get(primitive, "targets"), *others = json_object_get(like, "targets");
     if (like && json_equal(attributes, json_object_get(like, "attributes")) &&
-        json_equal(json_object_get(primitive, "targets"), json_object_get(like, "targets"))) {
+        (targets == others || json_equal(targets, others))) { // both may be missing
         // Vertices that several primitives share, as ours with several materials do, are read once; texture coordinates too, if both materials
         // place them equally.
         const struct gltf_part *other = mesh->parts, own = *part;

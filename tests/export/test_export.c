@@ -155,32 +155,56 @@ EXPORT_TEST(point_caches_hold_the_same)
     for (int i = 0; i < 3; i++) free(points[i].number);
 }
 
-/// A program plays a .pc2 in the node that has the mesh. An .npy is in the space of the character's file.
+/// A program plays a cache in the node that has the mesh: a row for each of the mesh's vertices, in the file's order. If several nodes have it, the
+/// vertices of each are in the file's space.
 EXPORT_TEST(point_caches_stand_in_their_node)
 {
-    static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}; // one that no triangle has
+#define MESH(...) "'meshes':[{'primitives':[" #__VA_ARGS__ "]}],"
+#define NODES "'nodes':[{'children':[1],'scale':[2,2,2]},{'mesh':0,'translation':[5,0,0],'rotation':[0,0,1,0]}"
+    static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
     static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 1], \"rigs\": [{\"type\": \"model\", \"name\": "
                                 "\"box\", \"model\": \"box.gltf\"}]}";
+    static const struct {
+        const char *members;
+        int vertices;
+        bool in_file, as_shown;
+    } rows[] = {
+        {MESH({'attributes' : {'POSITION' : 0}, 'indices' : 1}) NODES "]", 4, false,
+         false}, // no triangle has the last vertex
+        {MESH({'attributes' : {'POSITION' : 0, 'NORMAL' : 0, 'TEXCOORD_0' : 3}, 'indices' : 1}) NODES "]", 4, false,
+         false},
+        {MESH({'attributes' : {'POSITION' : 0}, 'indices' : 1}, {'attributes' : {'POSITION' : 0}, 'indices' : 2})
+             NODES "]",
+         4, false, false}, // of two materials
+        {MESH({'attributes' : {'POSITION' : 0}, 'indices' : 1}) NODES ",{'mesh':0}]", 8, true, false},
+        {MESH({'attributes' : {'POSITION' : 0}, 'indices' : 1}) NODES "]", 4, true, true}, // 0 is its lowest
+    };
     struct builder b = {0};
     add_data(&b, FLOAT, "VEC3", 4, corners, sizeof corners);
     ADD(&b, USHORT, uint16_t, 1, 0, 1, 2);
-    folder_file("box.gltf",
-                builder_json(&b, "'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1}]}],'nodes':[{"
-                                 "'children':[1],'scale':[2,2,2]},{'mesh':0,'translation':[5,0,0],'rotation':[0,0,1,"
-                                 "0]}]"));
-    struct opened opened = open_scene(folder_file("box.json", scene));
-    struct points pc2 = read_points(export_opened(&opened, "box.pc2", (struct export_options){0}));
-    struct points npy = read_points(export_opened(&opened, "box.npy", (struct export_options){0}));
-    assert_int_equal(pc2.vertices, 4);
-    for (int i = 0; i < 12; i++) {
-        const double own = (double)corners[i / 3][i % 3];
-        assert_near(frame_of(&pc2, 1)[i], own, 1e-6);
-        assert_near(frame_of(&npy, 1)[i], 2 * ((i % 3 == 2 ? own : -own) + (i % 3 == 0 ? 5 : 0)),
-                    1e-6); // half a turn
+    ADD(&b, USHORT, uint16_t, 1, 0, 2, 1, 0, 1, 3);
+    ADD(&b, FLOAT, float, 2, 0, 0, 1, 0, 0, 1, 1, 1);
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        folder_file("box.gltf", builder_json(&b, rows[r].members));
+        struct opened opened = open_scene(folder_file("box.json", scene));
+        const double up = rows[r].as_shown ? 4 : 0;
+        for (int f = 0; f < 3; f++) {
+            static const char *const names[] = {"box.pc2", "box.mdd", "box.npy"};
+            const struct export_options options = {.as_shown = rows[r].as_shown};
+            struct points points = read_points(export_opened(&opened, names[f], options));
+            if (points.vertices != rows[r].vertices)
+                fail_msg("row %zu, %s: %d vertices", r, names[f], points.vertices);
+            for (int i = 0; i < 12; i++) {
+                const double own = (double)corners[i / 3][i % 3],
+                             turned = 2 * ((i % 3 == 2 ? own : -own) + (i % 3 == 0 ? 5 : 0)); // half a turn
+                assert_near(frame_of(&points, 1)[i], rows[r].in_file ? turned + (i % 3 == 1 ? up : 0) : own, 2e-6);
+            }
+            free(points.number);
+        }
+        close_scene(&opened);
     }
-    free(pc2.number);
-    free(npy.number);
-    close_scene(&opened);
+#undef MESH
+#undef NODES
 }
 
 /// What was written, and where the last key is if none falls on the last frame.

@@ -28,12 +28,11 @@ def choose_clip(objects, name):
 
 
 def vertices(mesh):
-    """Of the mesh as it is deformed now, in glTF's axes (y up): one with a skeleton in its node's frame, where its cache stands."""
+    """Of the mesh as it is deformed now, in glTF's axes (y up) and its node's frame, where its cache stands."""
     shown = mesh.evaluated_get(bpy.context.evaluated_depsgraph_get())
     flat = np.empty(3 * len(shown.data.vertices), np.float32)
     shown.data.vertices.foreach_get('co', flat)
-    place = np.eye(4) if mesh.find_armature() else np.array(shown.matrix_world)
-    return (flat.reshape(-1, 3) @ place[:3, :3].T + place[:3, 3]) @ np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
+    return flat.reshape(-1, 3) @ np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
 
 
 def compare_meshes(path, cache_paths):

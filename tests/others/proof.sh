@@ -47,15 +47,16 @@ END
 else
     echo "ok - skipped: assimp-testmodels is not installed"
 fi
-caches() { # <scene> <rigs> <ending>: their files, in the order of the meshes. A .pc2 stands in its node, a .npy does not
+caches() { # <scene> <rigs> <ending>: their files, in the order of the meshes. A .pc2 stands in its node, these .npy on the stage, as the .usda do
     for rig in ${2//,/ }; do echo "$scratch/$1-$rig.$3"; done
 }
 for entry in $scenes $others; do
     scene=${entry%%:*} rigs=${entry#*:}
     export_to "$scene" "$scene.glb" --substeps 1
-    export_to "$scene" "$scene.usda" --substeps 1
+    export_to "$scene" "$scene.usda" --substeps 1 --as-shown
     for rig in ${rigs//,/ }; do
-        for ending in pc2 npy; do export_to "$scene" "$scene-$rig.$ending" --rig "$rig" --substeps 1; done
+        export_to "$scene" "$scene-$rig.pc2" --rig "$rig" --substeps 1
+        export_to "$scene" "$scene-$rig.npy" --rig "$rig" --substeps 1 --as-shown
     done
 done
 # a file with all of its clips

@@ -33,7 +33,7 @@ for (let n = 0; n < 10; n++) {
   for (const mesh of meshes) { // a mesh of several materials comes as several
     if (mesh.skeleton) mesh.skeleton.update();
     for (let v = 0; v < mesh.geometry.attributes.position.count; v++) {
-      mesh.getVertexPosition(v, place).applyMatrix4(mesh.matrixWorld);
+      mesh.getVertexPosition(v, place); // in the node, where its cache stands
       expected.fromArray(all[next++]);
       box.expandByPoint(expected);
       largest = Math.max(largest, place.distanceTo(expected));

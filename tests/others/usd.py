@@ -12,7 +12,6 @@ from compare import judge, read_cache, ten_of
 stage = Usd.Stage.Open(sys.argv[1])
 caches = [read_cache(path)[0] for path in sys.argv[2:]]
 meshes = [p for p in stage.Traverse() if p.IsA(UsdGeom.Mesh)]
-roots = [UsdSkel.Root.Find(p).GetPrim().GetPath() for p in meshes]
 times = stage.GetStartTimeCode(), stage.GetEndTimeCode()
 complaints = UsdValidation.ValidationContext(UsdValidation.ValidationRegistry().GetOrLoadAllValidators()).Validate(stage)
 for complaint in complaints:
@@ -22,11 +21,9 @@ assert all(t.resolvedPath for t in textures), f'textures are missing: {textures}
 assert UsdSkel.BakeSkinning(stage.Traverse(), Gf.Interval(*times)), 'UsdSkel cannot skin it'
 
 
-def points_at(mesh, root, time):
-    """In the space of its SkelRoot, which a character's own file and its .npy have."""
+def points_at(mesh, time):
     points = np.array(UsdGeom.Mesh(mesh).GetPointsAttr().Get(time), float)
-    world, rooted = (np.array(UsdGeom.Xformable(p).ComputeLocalToWorldTransform(time)) for p in (mesh, stage.GetPrimAtPath(root)))
-    place = world @ np.linalg.inv(rooted)
+    place = np.array(UsdGeom.Xformable(mesh).ComputeLocalToWorldTransform(time))
     return points @ place[:3, :3] + place[3, :3]
 
 
@@ -35,7 +32,7 @@ scaled = any(UsdSkel.Animation(p).GetScalesAttr().ValueMightBeTimeVarying() for 
 off = 0.0
 for key in ten_of(len(caches[0])):
     time = times[0] + (times[1] - times[0]) * key / (len(caches[0]) - 1)
-    points = np.concatenate([points_at(mesh, root, time) for mesh, root in zip(meshes, roots)])
+    points = np.concatenate([points_at(mesh, time) for mesh in meshes])
     expected = np.concatenate([cache[key] for cache in caches])
     assert points.shape == expected.shape, f'expected {len(expected)} vertices, got {len(points)}'
     off = max(off, float(np.linalg.norm(points - expected, axis=1).max()))
