@@ -80,11 +80,12 @@ void contents_print(const struct imported *imported)
         struct error error;
         const int parent = gltf->nodes[n].parent,
                   last = imported->skeleton.leads[n] ? chain_end(imported, n, &error) : -1;
-        if (last < 0 || last == n) continue;
+        if (last < 0) continue;
         if (parent >= 0 && chain_end(imported, parent, &error) >= 0) continue; // the chain starts further up
         if (!chain_find(gltf, gltf->nodes[n].name, gltf->nodes[last].name, &bones, &error)) continue;
         if (!any) puts("chains you can use with --chain:");
-        print_line(stdout, "  %s:%s (%d bones)", gltf->nodes[n].name, gltf->nodes[last].name, bones.count);
+        print_line(stdout, "  %s%s%s (%d bone%s)", gltf->nodes[n].name, last == n ? "" : ":",
+                   last == n ? "" : gltf->nodes[last].name, bones.count, last == n ? "" : "s");
         any = true;
     }
     if (gltf->not_shown) print_line(stdout, "not shown: %s", gltf->not_shown);

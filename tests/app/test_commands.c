@@ -594,7 +594,8 @@ static const struct {
     {0, "export dog.json -o dog.usda --substeps 1", "97 keys, 1 texture in dog_textures, "},
     {0, "export assets/scenes/character.json -o soft.glb --frames 0:4", " morph targets, 5 keys"},
     {0, "rig dog.glb", // a bone under its parent
-     "Walk (1 s, loops)|          tail_3|chains you can use with --chain:\n|  tail_1:tail_8 (8 bones)"},
+     "Walk (1 s, loops)|          tail_3|chains you can use with --chain:\n|  jaw (1 bone)\n  tail_1:tail_8 (8 "
+     "bones)\n"},
     {0, "check dog.glb",
      "dog.glb: a glTF character of 19816 triangles and 43 joints|Trot (0.583 s, loops)|  ear_1_L:ear_4_L (4 bones)"},
     {0, "rig dog.glb --chain tail_1:tail_8 --chain ear_1_L -c ear_1_R -o d.json", "wrote d.json: 3 chains"},
