@@ -210,6 +210,7 @@ static const double USUAL_LENGTH = 0.5, USUAL_FREQUENCY = 1.5; ///< longer chain
 static const double SLOWEST = 0.8, FASTEST = 3.5, USUAL_DAMPING = 0.12;
 static const double WHOLE_LAG = 110;  ///< degrees from the first bone to the tip
 static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline whose knots plan_set it
+static const double LEAST_SWING = 1; ///< degrees by chain_bend_a_metre(): what is less stays less, as it may be noise
 static const double DEGREES = 57.29577951308232;
 static const double SHORTEST = 1e-3; ///< of the character's size; less cannot be bent
 static const double LEAF = 0.03;     ///< of that size: length of a bone without a child, at least
@@ -281,6 +282,40 @@ static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, s
     return plan_set(plan, spline, PARAMETER_EQUILIBRIUM, equilibrium, error);
 }
 
+static double three_digits(double number)
+{
+    const double unit = 100 / maths_power_of_ten(maths_decade(number));
+    return round(unit * number) / unit;
+}
+
+/// Scales the gains of a new chain that follows a clip, by CHAIN_SWING.
+static bool set_strength(struct document *document, const struct models *models, int rig, int bones,
+                         struct error *error)
+{
+    struct evaluation evaluation = {.models = models_source(models)};
+    evaluation_update(&evaluation, document, false);
+    const struct posing posing = {.document = document, .evaluation = &evaluation, .models = models};
+    const struct chain *chain = &document->rigs[rig]->chain;
+    double largest = LEAST_SWING;
+    for (int s = 0; s < evaluation.samples; s++) {
+        wiggly_value values[RIG_MAX_INPUTS];
+        double turn[2] = {0};
+        posing_values(&posing, rig, s, NULL, values);
+        for (int i = 0; i < 2 * bones; i++)
+            turn[i % 2] += channel_bend(&chain->channels[i % 2], values[i % 2], i / 2, bones, LOOK_WIGGLY);
+        largest = fmax(largest, DEGREES * maths_hypot(turn[0], turn[1]));
+    }
+    evaluation_free(&evaluation);
+    const double gain = three_digits(chain->channels[0].gain.value[0] * CHAIN_SWING / largest);
+    bool done = true;
+    for (int c = 0; c < 2; c++) {
+        struct channel channel = document->rigs[rig]->chain.channels[c];
+        channel.gain.value[0] = gain;
+        done = done && edit_channel(document, (struct channel_place){rig, c}, &channel, error);
+    }
+    return done;
+}
+
 bool chain_make(struct document *document, const struct models *models, const struct chain_wish *wish, int *rig,
                 struct error *error)
 {
@@ -346,7 +381,7 @@ bool chain_make(struct document *document, const struct models *models, const st
                                            .axis = c == 0 ? AXIS_SIDE : AXIS_UP,
                                            .of = wish->follows ? PART_DISPLACEMENT : PART_TOTAL,
                                            .lag.value = {wish->lag > 0 ? wish->lag : round(WHOLE_LAG / bones.count)},
-                                           .gain.value = {round(10 * bend) / 10}};
+                                           .gain.value = {three_digits(bend)}};
         }
         chain.channels = channels;
         chain.channel_count = 2;
@@ -356,7 +391,8 @@ bool chain_make(struct document *document, const struct models *models, const st
     *rig = document->rig_count;
     done = done && edit_rig_add(document, &contents, error);
     if (done && !twin && wish->follows)
-        done = follow_tip(&plan, first, MOTION_ACROSS, error) && follow_tip(&plan, first + 1, MOTION_UP, error);
+        done = follow_tip(&plan, first, MOTION_ACROSS, error) && follow_tip(&plan, first + 1, MOTION_UP, error) &&
+               (clip < 0 || set_strength(document, models, *rig, bones.count, error));
     free(name);
     return done;
 }

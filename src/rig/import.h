@@ -28,6 +28,9 @@ struct document *import_with_clip(const struct document *document, int rig, cons
 
 // --- chains
 
+/// The strength of a new chain that follows a clip: the largest swing of the clip turns its tip by so many degrees, all bones together.
+enum { CHAIN_SWING = 30 };
+
 /// A request for a chain; numbers that are 0 are chosen by its length.
 struct chain_wish {
     int model;        ///< index of the model rig

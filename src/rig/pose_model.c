@@ -169,7 +169,8 @@ static void sample_raw(struct smoothing *smoothing, const struct document *docum
     *smoothing_at(smoothing, sample) = followed_at(followed, posing_clip_time(document, held, &followed->play));
 }
 
-bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples)
+bool clip_follow(const void *context, const struct document *document, const struct joint_motion *motion,
+                 double *samples)
 {
     const struct models *models = context;
     const int rig = document_find_model(document, motion->model, motion->by_file);

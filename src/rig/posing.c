@@ -75,7 +75,7 @@ double pinning_square(const pin_pull c)
     return sum;
 }
 
-static bool source_find(void *context, const struct evaluation *evaluation, const struct document *document,
+static bool source_find(const void *context, const struct evaluation *evaluation, const struct document *document,
                         const struct pin_query *query, pin_pull *c, struct pin_point *point)
 {
     const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
@@ -83,7 +83,7 @@ static bool source_find(void *context, const struct evaluation *evaluation, cons
     return posing_kinds[document->rigs[query->rig]->kind]->pins->find(&posing, query, c, point);
 }
 
-static void source_weigh(void *context, const struct document *document, int rig, const int *splines, int count,
+static void source_weigh(const void *context, const struct document *document, int rig, const int *splines, int count,
                          double *weights)
 {
     const struct posing posing = {.document = document, .models = context, .at_rest = true};
@@ -91,14 +91,14 @@ static void source_weigh(void *context, const struct document *document, int rig
     if (pins) pins->weigh(&posing, rig, splines, count, weights);
 }
 
-static bool source_lowest(void *context, const struct evaluation *evaluation, const struct document *document,
+static bool source_lowest(const void *context, const struct evaluation *evaluation, const struct document *document,
                           int rig, double ceiling, double *room, struct low_point *low)
 {
     const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
     return character_lowest(&posing, rig, ceiling, room, low);
 }
 
-struct model_source models_source(struct models *models)
+struct model_source models_source(const struct models *models)
 {
     return (struct model_source){.find = source_find,
                                  .weigh = source_weigh,

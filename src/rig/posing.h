@@ -86,7 +86,7 @@ double channel_bend(const struct channel *channel, wiggly_value value, int n, in
 double channel_moves(const struct channel *channel, wiggly_value value, int n, enum look look);
 
 /// The document's models as the scene's source for pins, floors and motions; they must not move in memory. `models` may be NULL.
-struct model_source models_source(struct models *models);
+struct model_source models_source(const struct models *models);
 
 /// Poses a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's
 /// section 7.2, eq. 29, eq. 30).
@@ -139,7 +139,8 @@ void posing_base(const struct posing *posing, int rig, const struct by_hand *by_
 
 /// Like model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
-bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples);
+bool clip_follow(const void *context, const struct document *document, const struct joint_motion *motion,
+                 double *samples);
 
 /// Adds the effect of a channel's spline on a point that a bend of joint n moves along `way`, metres per radian.
 void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c);

@@ -56,19 +56,19 @@ struct pin_query {
 struct model_source {
     /// Finds a pin's point as the splines are in `evaluation`, and how the splines asked for move it from there (`c` may be NULL if
     /// there are none). false: its model is missing, or has no such point. NULL: pins are ignored.
-    bool (*find)(void *context, const struct evaluation *evaluation, const struct document *document,
+    bool (*find)(const void *context, const struct evaluation *evaluation, const struct document *document,
                  const struct pin_query *query, pin_pull *c, struct pin_point *point);
     /// Adds to each spline's weight the mean of |c|² over the surface of a rig at rest.
-    void (*weigh)(void *context, const struct document *document, int rig, const int *splines, int count,
+    void (*weigh)(const void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights);
     /// Finds a character's lowest vertex at every sample. Vertices not below `ceiling` may be skipped; the height is then `ceiling` and the vertex
     /// -1. `room` has LOW_POINT_ROOM numbers per low_point_samples(). false: its model is missing.
-    bool (*lowest)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
+    bool (*lowest)(const void *context, const struct evaluation *evaluation, const struct document *document, int rig,
                    double ceiling, double *room, struct low_point *low);
     /// Writes the motion of a joint at each of the document's samples, in degrees or metres, without gain. false, or NULL: it is 0.
-    bool (*follow)(void *context, const struct document *document, const struct joint_motion *motion,
+    bool (*follow)(const void *context, const struct document *document, const struct joint_motion *motion,
                    double *samples);
-    void *context;
+    const void *context;
     uint64_t version; ///< changes when the results may change for the same document
 };
 
