@@ -121,6 +121,16 @@ for file in "twins:tail_1 2" "bones:bone 5"; do
     holds "the second animal's" [ "$(grep -o '"node": *[0-9]*' $animal.out.gltf | tr -dc '0-9\n' | sort -u | xargs)" = "4 5" ]
 done
 
+zeros=$(printf 'A%.0s' {1..48})
+printf '{"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":"data:;base64,%s"}],"bufferViews":[{"buffer":0,"byteLength":36}],
+    "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],"nodes":[{"name":"face","mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":0},{"POSITION":0}]}]}],"extensions":{"VRM":
+    {"blendShapeMaster":{"blendShapeGroups":[{"name":"Joy","binds":[{"mesh":0,"index":1,"weight":100}]}]}}}}' "$zeros" >joy.gltf
+tells 0 "the shapes of VRM have names" "shapes:
+  Joy" wiggly rig joy.gltf
+expect 0 "and so they have in a .usda" wiggly rig joy.gltf -o joy.usda
+says "beside one without" '"target_0", "Joy"' "$(<joy.usda)"
+
 fbx=/usr/share/assimp/models/FBX/animation_with_skeleton.fbx
 if [ -e $fbx ] && command -v blender >/dev/null; then
     expect 0 "Blender converts FBX" "$root/tools/from-fbx.sh" $fbx skeleton.glb

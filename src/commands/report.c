@@ -75,6 +75,15 @@ void contents_print(const struct imported *imported)
         }
     }
     bool any = false;
+    for (int m = 0; m < gltf->mesh_count; m++) {
+        for (int t = 0; t < gltf->meshes[m].target_count; t++) {
+            const char *name = gltf_target_name(&gltf->meshes[m], t);
+            if (name && !any) puts("shapes:");
+            if (name) print_line(stdout, "  %s", name);
+            any = any || name;
+        }
+    }
+    any = false;
     for (int n = 0; n < gltf->node_count; n++) {
         struct chain_bones bones;
         struct error error;

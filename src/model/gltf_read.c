@@ -417,6 +417,33 @@ static bool read_meshes(struct gltf_reader *r)
     return true;
 }
 
+/// Names targets without a name by the shapes of VRM 0.x that move them, by those of one target first.
+static bool name_by_shapes(struct gltf_reader *r)
+{
+    const json_t *vrm = json_object_get(json_object_get(r->file.json, "extensions"), "VRM"), *shape, *bind;
+    const json_t *shapes = json_object_get(json_object_get(vrm, "blendShapeMaster"), "blendShapeGroups");
+    size_t s, b;
+    for (int pass = 0; pass < 2; pass++) {
+        json_array_foreach(shapes, s, shape)
+        {
+            const json_t *binds = json_object_get(shape, "binds");
+            const char *name = own_name(shape);
+            char *own = NULL; // one for all targets, because a name may be long
+            if (!name) name = json_string_value(json_object_get(shape, "presetName"));
+            const bool is_named = name && !name_is_blank(name);
+            json_array_foreach(is_named && (pass || json_array_size(binds) == 1) ? binds : NULL, b, bind)
+            {
+                const int64_t m = glb_integer(bind, "mesh", -1), t = glb_integer(bind, "index", -1);
+                if (m < 0 || m >= r->gltf->mesh_count || t < 0 || t >= r->gltf->meshes[m].target_count) continue;
+                char **target = &r->gltf->meshes[m].target_names[t];
+                if (!*target && !own && !(own = gltf_text(r, name))) return false;
+                if (!*target) *target = own;
+            }
+        }
+    }
+    return true;
+}
+
 // --- nodes and skins
 
 static const float SHEARED = 1e-4f; ///< cosine between columns of a matrix that is no move, turn and scale
@@ -774,7 +801,8 @@ static bool read_all(struct gltf_reader *r)
     r->pixel_room = PIXEL_ROOM + r->file.room;
     r->gltf->path = gltf_text(r, r->file.path);
     r->gltf->id = gltf_new_id();
-    if (!r->gltf->path || !gltf_read_materials(r) || !read_meshes(r) || !read_nodes(r)) return false;
+    if (!r->gltf->path || !gltf_read_materials(r) || !read_meshes(r) || !name_by_shapes(r) || !read_nodes(r))
+        return false;
     const size_t limit = r->file.room < VERTEX_LIMIT ? r->file.room : VERTEX_LIMIT;
     for (int n = 0; n < r->gltf->node_count; n++) total += (size_t)gltf_vertex_count(r->gltf, n);
     if (total > limit) // nodes may show a mesh several times

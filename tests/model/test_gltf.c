@@ -349,14 +349,30 @@ GLTF_TEST(no_two_names_are_alike)
     assert_int_equal(gltf_find_node(&b->gltf, "tree"), -1);
 }
 
-/// From where glTF's exporters put them, VRM 0.x among these; a name that is missing is none.
+/// From where glTF's exporters put them, VRM 0.x among these. A target without a name has that of a shape of VRM 0.x, rather of one that it
+/// makes alone.
 GLTF_TEST(names_of_targets)
 {
 #define TARGETS "'attributes':{'POSITION':0},'targets':[{'POSITION':0},{'POSITION':0}]"
 #define NAMES(first, second) "'extras':{'targetNames':[" first "," second "]}"
+#define PLAIN "'primitives':[{" TARGETS "}]"
+#define SHAPES(groups) "}],'extensions':{'VRM':{'blendShapeMaster':{'blendShapeGroups':[" groups "]}}},'more':[{"
+#define SHAPE(name, binds) "{" name ",'binds':[" binds "]}"
+#define BIND(index) "{'mesh':0,'index':" index ",'weight':100}"
+#define BOTH BIND("0") "," BIND("1")
     static const struct {
         const char *mesh, *second;
     } cases[] = {
+        {PLAIN SHAPES(SHAPE("'name':'Blink'", BIND("0")) "," SHAPE("'name':'Joy'", BIND("1"))), "Joy"},
+        {PLAIN SHAPES(SHAPE("'name':'Fun'", BOTH) "," SHAPE("'name':'','presetName':'joy'", BIND("1")) "," SHAPE(
+             "'name':'Blink'", BIND("0")) "," SHAPE("'name':'again'", BIND("0"))),
+         "joy"},
+        {PLAIN SHAPES("7," SHAPE("'name':'Blink'", BOTH)), "Blink"},
+        {PLAIN SHAPES(
+             SHAPE("'name':'Blink'", BIND("0") "," BIND("2") "," BIND("-1") ",{},7,{'mesh':1,'index':1}") "," SHAPE(
+                 "'name':8", BIND("1"))),
+         "none"},
+        {NAMES("'Blink'", "'Joy'") "," PLAIN SHAPES(SHAPE("'name':'no'", BIND("1"))), "Joy"},
         {NAMES("'Blink'", "'Joy'") ",'primitives':[{" NAMES("'no'", "'no'") "," TARGETS "}]", "Joy"},
         {"'primitives':[{" NAMES("'Blink'", "'Joy'") "," TARGETS "}]", "Joy"},
         {"'extras':{'other':1},'primitives':[{" TARGETS "},{" NAMES("'Blink'", "'Joy'") "," TARGETS "}]", "Joy"},
