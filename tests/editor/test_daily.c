@@ -490,5 +490,6 @@ WALK(test_range_and_rate_on_a_phone, panel_open(s, scene, 390, 844),
 
 /// A name that is taken stays in its field, of its own row, when another row is clicked.
 WALK(test_a_taken_name_stays_with_its_row,
-     panel_open(s, "{'frames': [0, 24], 'splines': [{'name': 'one', 'knots': []}, {'name': 'two', 'knots': []}]}", 1280, 720),
+     panel_open(s, "{'frames': [0, 24], 'splines': [{'name': 'one', 'knots': []}, {'name': 'two', 'knots': []}]}",
+                1280, 720),
      "click spline.one; key F2; type two; click spline.two; wait; said two; key Escape; is splines.0.name one")

@@ -506,12 +506,11 @@ SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
 {
     static const char *const headers[] = {"section.feel", "section.knot"};
     const struct ui *ui = inspector_of(s->editor);
-    hands(s,
-          "finds preset.cat; finds frequency; finds damping; finds wind-up; finds lag; finds gain;"
-          "finds spline.sway; finds splines.add; finds more; finds look.stiff;"
-          "lacks follow.frequency; lacks gain.ramp; lacks gain.curve;"
-          "lacks section.spline; lacks section.rigs; lacks section.tail; lacks section.pins;"
-          "lacks section.limits; lacks section.history; wait");
+    hands(s, "finds preset.cat; finds frequency; finds damping; finds wind-up; finds lag; finds gain;"
+             "finds spline.sway; finds splines.add; finds more; finds look.stiff;"
+             "lacks follow.frequency; lacks gain.ramp; lacks gain.curve;"
+             "lacks section.spline; lacks section.rigs; lacks section.tail; lacks section.pins;"
+             "lacks section.limits; lacks section.history; wait");
     int count = ui->stop_count; // that Tab reaches, without headers
     for (int i = 0; i < 2 * ui->stop_count; i++) count -= ui->stop[i / 2].id == ui_id(ui, headers[i % 2]);
     assert_in_range(count, 10, 20);

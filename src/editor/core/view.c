@@ -56,7 +56,8 @@ void core_layout(struct core *core)
     l->plot.w += across;
     l->sheet.w += across;
     l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
-    struct rect *const lower[] = {&l->curves, &l->list, &l->range, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
+    struct rect *const lower[] = {&l->curves, &l->list, &l->range,      &l->ruler,
+                                  &l->sheet,  &l->plot, &l->value_axis, &l->status};
     l->stage = presenter->shares || upright ? l->open : l->window; // upright, nothing of it would be left
     for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
     if (upright) l->inspector.y += down;

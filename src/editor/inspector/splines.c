@@ -152,7 +152,8 @@ static enum ui_row_event build_line(struct inspector *in, struct line line, stru
     const bool is_folded = selection_has(&core->view.folded, spline->id), is_wide = r.w > WIDE / 2.0f;
     const struct row *typed = line.is_header ? &folder_row : &rename_row;
     struct rect label = r;
-    bool chosen = true, types = false; // types: it was the active one as this pass began, before a click made it another
+    bool chosen = true,
+         types = false; // types: it was the active one as this pass began, before a click made it another
     for (int s = line.first; s < line.end; s++) {
         chosen &= core_is_chosen(core, s);
         types |= document->splines[s]->id == in->listed;
