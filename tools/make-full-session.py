@@ -41,7 +41,7 @@ key(14, "O")
 key(18, "P")
 key(22, "Space")
 # While it plays: a knot, all knots, the camera, the view.
-drag(30, 120, "curve(sway,112,-0.5)", lambda u: f"stage({0.3 + 0.3 * u:.3f},0.5)", button="right")
+drag(30, 120, "stage(0.3,0.5)", lambda u: f"stage({0.3 + 0.3 * u:.3f},0.5)", button="right")
 drag(170, 120, "knot(sway,12)", lambda u: f"curve(sway,112,{math.sin(9 * u):.4f})")
 key(300, "A", "ctrl")
 drag(304, 100, "knot(sway,9)", lambda u: f"curve(sway,{85 + 3 * math.sin(6 * u):.3f},{0.8 * math.cos(6 * u):.4f})")

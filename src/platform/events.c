@@ -1,5 +1,5 @@
 /// Queues events until the next frame, and counts clicks.
-#include "platform/surface.h"
+#include "platform/events.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,46 +1,10 @@
-/// The kinds of surface behind platform.h, and their events, which wait until the next frame. Private to platform/.
+/// The kinds of surface behind platform.h. Private to platform/.
 #ifndef PLATFORM_SURFACE_H
 #define PLATFORM_SURFACE_H
 
 #include "base/error.h"
+#include "platform/events.h"
 #include "platform/platform.h"
-#include "ui/event.h"
-
-enum { QUEUE_EVENTS = 1024, QUEUE_PATH_BYTES = 1 << 16 };
-
-/// Events, and the dropped files' paths they point to.
-struct event_buffer {
-    struct event events[QUEUE_EVENTS];
-    int count;
-    char paths[QUEUE_PATH_BYTES];
-    int path_bytes;
-};
-
-/// One buffer fills while the frame reads the other.
-struct event_queue {
-    struct event_buffer buffers[2];
-    int filling;
-};
-
-/// Adds an event. A nearly full buffer keeps only the last of consecutive pointer positions, a full one drops events.
-void event_queue_push(struct event_queue *queue, const struct event *event);
-
-/// Adds EVENT_DROP with a copy of `path`, if it fits.
-void event_queue_push_drop(struct event_queue *queue, const char *path, double time);
-
-/// The events since the last call, valid until the next.
-const struct event *event_queue_take(struct event_queue *queue, int *count);
-
-/// The last press.
-struct clicks {
-    bool open; ///< it may become a double-click
-    double time;
-    float x, y;
-    enum event_button button;
-};
-
-/// 2 for a press soon after another at the same place; a third counts as 1.
-int clicks_count(struct clicks *clicks, const struct event *press, double time);
 
 struct window;
 struct offscreen;

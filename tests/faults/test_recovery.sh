@@ -46,7 +46,7 @@ xdotool key F1 Escape
 eventually "what to try first is said once" is_set '"welcomed": true'
 xdotool key F10
 eventually "the theme is remembered" is_set '"theme": "light"'
-xdotool key ctrl+shift+equal
+xdotool key F8
 eventually "how large everything is, is remembered" is_set '"ui_scale": 1\.[0-9]+'
 xdotool key ctrl+shift+0
 edit_and_kill Right Right Right
@@ -156,7 +156,7 @@ expect 0 "and whole" "$WIGGLY" check "$mine"
 to $first t # it has noticed the second's work
 sleep 1
 to $first F10
-to $second ctrl+shift+equal
+to $second F8
 both() { is_set '"theme": "light"' && is_set '"ui_scale": 1\.[0-9]+'; }
 eventually "what one window has set stays when another sets something else" both
 holds "a file that both have open is a recent file once" [ "$(sed -n '/"recent"/,/]/p' "$settings" | grep -c "\"$mine\"")" -eq 1 ]

@@ -2,8 +2,8 @@
 #include "platform/platform.h"
 #include "base/need.h"
 #include "base/progress.h"
+#include "platform/events.h"
 #include "platform/process.h"
-#include "platform/surface.h"
 #include <dlfcn.h>
 #include <emscripten.h>
 #include <emscripten/html5.h>
