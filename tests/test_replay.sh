@@ -180,6 +180,8 @@ job "six splines get one feel" six six tests/replays/six.json
 holds "in two actions" [ "$(actions six)" = 2 ]
 holds "which all have" [ "$(grep -c '"damping": 0.35' six.json)" = 6 ]
 
+holds "a soft body is posed through two frames in two actions" [ "$(actions pins)" = 2 ]
+
 job "a tail is pulled to where it cannot go" pull pull assets/scenes/tail.json
 holds "both ways that it bends have a pose there" [ "$(grep -c '"frame": 80, .*"im"' pull.json)" = 2 ]
 holds "which is not far" not grep -qE '"frame": 80, ("value": -?[1-9][^}]*"im"|.*"im": -?[1-9])' pull.json
