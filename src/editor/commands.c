@@ -376,8 +376,7 @@ const struct command commands[] = {
          {'E', CTRL}),
     ALSO("share", "Copy a link, in a browser", FILE, 0, PAGE, 0, .request = REQUEST_SHARE, 0, {'L', CTRL_SHIFT}),
     ALSO("figure 1 2 3 4 5 6 7 resonance as a spline poles and response complex it stretches editable at any point "
-         "tail "
-         "from four knots phases of coordinate dog ears follow its walk creature held by hands scene",
+         "tail from four knots phases of coordinate dog ears follow its walk creature held by hands scene",
          "Examples", FILE, 0, NOTHING, 0, .run = run_show, SHOW_EXAMPLES, {0}),
     COMMAND("Quit", FILE, 0, NO_PAGE, 0, .request = REQUEST_QUIT, 0, {'Q', CTRL}),
 

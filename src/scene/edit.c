@@ -631,6 +631,7 @@ bool edit_spline_settles(struct document *document, int spline, bool settles, st
     for (int k = 0; done && k < document->splines[spline]->knot_count; k++) {
         struct knot knot = document->splines[spline]->knots[k];
         knot.settles = settles && !knot.still;
+        knot.has_phase &= !settles;
         done = edit_knot_set(document, spline, &knot, error);
     }
     return done;

@@ -30,7 +30,7 @@ bool edit_spline_remove(struct document *document, int spline, struct error *err
 bool edit_spline_move(struct document *document, int spline, int to, struct error *error);
 /// The name must not be empty or another spline's.
 bool edit_spline_name(struct document *document, int spline, const char *name, struct error *error);
-/// Whether the motion settles at all of its knots (that are not still).
+/// Whether the motion settles at all of its knots that are not still; these then hold values alone.
 bool edit_spline_settles(struct document *document, int spline, bool settles, struct error *error);
 /// 0xRRGGBB, or -1.
 bool edit_spline_color(struct document *document, int spline, int color, struct error *error);

@@ -493,3 +493,15 @@ WALK(test_a_taken_name_stays_with_its_row,
      panel_open(s, "{'frames': [0, 24], 'splines': [{'name': 'one', 'knots': []}, {'name': 'two', 'knots': []}]}",
                 1280, 720),
      "click spline.one; key F2; type two; click spline.two; wait; said two; key Escape; is splines.0.name one")
+
+/// Whatever sets a knot by hand leaves a locked spline alone, and says so.
+WALK(test_a_lock_holds_everywhere,
+     session_open(s,
+                  "{'frames': [0, 96], 'splines': [{'name': 'sway', 'frequency': 1, 'locked': true, 'knots': [<0 0>, "
+                  "<24 1>, <48 0>, <72 1>]}], 'rigs': [{'type': 'tail', 'name': 'tail', 'channels': [{'spline': "
+                  "'sway', 'gain': 9}]}]}"),
+     "keep; seek 12; key I; says sway is locked: open its lock in the list first.; kept; key F3; type reduce; key "
+     "Enter;"
+     "wait 1; said is locked; lacks tolerance; kept; carry tail(tail,0.8) 20 10; said is locked; kept; click "
+     "lock.sway;"
+     "carry tail(tail,0.8) 20 10; sway.knots 5")

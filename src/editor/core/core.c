@@ -200,8 +200,15 @@ bool core_set_parameter(struct core *core, int spline, enum parameter parameter,
     return edit_parameter(core->document, spline, parameter, &param, &core->step.error);
 }
 
+bool core_check_lock(const struct core *core, int spline, struct error *error)
+{
+    const struct spline *of = core->document->splines[spline];
+    return !of->locked || fail(error, ERROR_INPUT, "%.200s is locked: open its lock in the list first.", of->name);
+}
+
 bool core_put_knot(struct core *core, int spline, const struct knot *knot)
 {
+    if (!core_check_lock(core, spline, &core->step.error)) return false;
     return knot->id == 0 ? edit_knot_insert(core->document, spline, knot, &core->step.error)
                          : edit_knot_set(core->document, spline, knot, &core->step.error);
 }

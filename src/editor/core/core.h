@@ -30,6 +30,8 @@ bool core_set_parameter(struct core *core, int spline, enum parameter parameter,
 double core_parameter_at(const struct core *core, const struct spline *spline, enum parameter parameter, int sample);
 /// Sets a knot, or inserts it if its id is 0. Edits.
 bool core_put_knot(struct core *core, int spline, const struct knot *knot);
+/// Fails if a spline's knots are locked against edits by hand.
+bool core_check_lock(const struct core *core, int spline, struct error *error);
 /// The knot at a sample, or a new one with id 0.
 struct knot core_knot_at(const struct document *document, int spline, int sample);
 /// Call after edits, undo, redo and a new document: keeps the active spline and the playhead's frame. See editor_refresh().

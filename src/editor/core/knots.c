@@ -16,17 +16,21 @@ void core_select_only(struct core *core, unsigned id)
     selection_set(&core->focus.selection, id, true);
 }
 
-static const char locked[] = "%.200s is locked: open its lock in the list first.";
+/// Whether the active spline is locked, which it says before a step is open.
+static bool is_locked(struct core *core)
+{
+    struct error why;
+    if (core_check_lock(core, core->focus.active, &why)) return false;
+    core_message(core, false, "%s", why.text);
+    return true;
+}
 
 /// Inserts and selects a knot, or selects the one at that sample.
 static void insert_at(struct core *core, const struct knot *knot)
 {
     const struct document *document = core->document;
     int sample = document_sample(document, knot->frame);
-    if (core_active_spline(core)->locked) {
-        core_message(core, false, locked, core_active_spline(core)->name);
-        return;
-    }
+    if (is_locked(core)) return;
     int at = spline_find_knot(document, core_active_spline(core), sample);
     if (at < 0) {
         if (!core_step(core, knot->has_phase ? "Insert pose" : "Insert knot", 0)) return;
@@ -368,9 +372,7 @@ void core_mirror_knots(struct core *core, int unused)
 /// Inserts a shifted copy of a knot in the open step.
 static bool insert_copy(struct core *core, int spline, const struct knot *knot, double shift)
 {
-    const struct spline *to = core->document->splines[spline];
     struct knot copy = *knot;
-    if (to->locked) return fail(&core->step.error, ERROR_INPUT, locked, to->name);
     copy.id = 0;
     copy.frame += shift;
     return core_put_knot(core, spline, &copy);
@@ -497,7 +499,8 @@ void core_simplify(struct core *core, int on)
     spline_drop(cleaning->was);
     *cleaning = (struct cleaning){.done = -1};
     const struct spline *spline = on ? core_active_spline(core) : NULL;
-    if (!spline || spline->knot_count == 0 || !evaluation_is_of(core->evaluation, core->document)) return;
+    if (!spline || spline->knot_count == 0 || !evaluation_is_of(core->evaluation, core->document) || is_locked(core))
+        return;
     const int count = selection_count(&core->focus.selection, spline);
     const bool part = count > 1 && count < spline->knot_count;
     const bool follows = param_follows(&spline->parameter[PARAMETER_FREQUENCY]) ||
@@ -556,7 +559,7 @@ void core_smooth_knots(struct core *core, int unused)
         return;
     for (int s = 0; s < core->document->spline_count; s++) {
         const struct spline *spline = core->document->splines[s];
-        if (selection_count(selection, spline) < 3) continue;
+        if (spline->locked || selection_count(selection, spline) < 3) continue;
         struct simplify *of = open_knots(core, s, true, false, false);
         for (int k = 1; k < of->count - 1; k++) {
             struct knot knot = core->document->splines[s]->knots[k];

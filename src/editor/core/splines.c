@@ -448,12 +448,7 @@ void core_pose_to_pose(struct core *core, int limb)
     if (!spline || !core_step(core, settles ? "Pose to pose" : "Settle off", 0)) return;
     for (int s = 0; s < core->document->spline_count; s++) {
         if (s != core->focus.active && !core_is_felt(core, limb, s)) continue;
-        for (int k = 0; k < core->document->splines[s]->knot_count; k++) {
-            struct knot knot = core->document->splines[s]->knots[k];
-            knot.settles = settles && !knot.still;
-            knot.has_phase &= !settles;
-            core_put_knot(core, s, &knot);
-        }
+        edit_spline_settles(core->document, s, settles, &core->step.error);
     }
     core_edited(core, -1);
 }

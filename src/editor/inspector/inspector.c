@@ -597,7 +597,7 @@ void inspector_range(struct inspector *in)
 void inspector_edit_range(struct inspector *in, int unused)
 {
     (void)unused;
-    inspector_unfold(in, "section.scene");
+    if (in->core->view.layout.range.w == 0) inspector_unfold(in, "section.scene");
     in->ui.focus = ui_id(&in->ui, scene_rows[ROW_LAST].ui.name);
 }
 
