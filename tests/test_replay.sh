@@ -129,7 +129,7 @@ off() { # <name> <columns> <from> <to> [other name] [frame]
             seen++; d = $i - at[frame == "" ? $1 : frame, i]; d = d < 0 ? -d : d; most = d > most ? d : most } }
         END { print seen ? most + 0 : "nothing" }' reads=other "${5:-none}.csv" reads=own "$1.csv"
 }
-actions() { sed "/^${2:-no more} /q" "$replays/$1.replay" | grep -E '^[0-9]+ (key|press) ' | grep -cvE ' key (Space|Left|Home|O)\b'; } # <job> [frame]: but looking
+actions() { sed "/^${2:-no more} /q" "$replays/$1.replay" | grep -E '^[0-9]+ (key|press) ' | grep -cvE ' key (Space|Left|Home|O)\b'; } # <job> [last frame]: without keys that only look
 below() { awk -v value="$1" -v most="$2" 'BEGIN { exit !(value ~ /^[0-9.e-]+$/ && value <= most) }'; } # <value> <most>
 above() { awk -v value="$1" -v least="$2" 'BEGIN { exit !(value ~ /^[0-9.e-]+$/ && value >= least) }'; } # <value> <least>
 moves() { # rows: what~above or below~how many degrees~off's arguments

@@ -128,8 +128,9 @@ int command_rig(int argc, char **argv)
                 print_line(stdout, "wrote %s: %s%s%s%s", job.output, report.text, before, name, plays);
             }
             if (job.wish.follows && job.chains.count > 0)
-                printf("gain of each chain: so that the clip's largest swing turns its tip by up to %d degrees\n",
-                       CHAIN_SWING);
+                printf(
+                    "each chain has the gain with which the clip's largest swing turns its tip by up to %d degrees\n",
+                    CHAIN_SWING);
         }
     }
     opened_free(&opened);

@@ -153,7 +153,7 @@ static enum ui_row_event build_line(struct inspector *in, struct line line, stru
     const struct row *typed = line.is_header ? &folder_row : &rename_row;
     struct rect label = r;
     bool chosen = true,
-         types = false; // types: it was the active one as this pass began, before a click made it another
+         types = false; // types: the row was active when this pass began; a click may have changed that
     for (int s = line.first; s < line.end; s++) {
         chosen &= core_is_chosen(core, s);
         types |= document->splines[s]->id == in->listed;
