@@ -1,4 +1,4 @@
-/// Writes a four-legged beast as a .glb: boxes skinned to named bones, a tail, two ears and two clips. For tests of imported characters and
+/// Writes a four-legged beast as a .glb: boxes skinned to named bones, a tail, two ears and two clips. For tests of characters and
 /// their chains.
 #ifndef TESTS_BEAST_H
 #define TESTS_BEAST_H

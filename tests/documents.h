@@ -33,6 +33,13 @@ static inline struct document *document_of_file(const char *path)
     return document;
 }
 
+/// Its first character, or NULL.
+static inline struct model_rig *first_model(const struct document *document)
+{
+    const int rig = document_find_rig(document, RIG_MODEL, 0);
+    return rig >= 0 ? &document->rigs[rig]->model : NULL;
+}
+
 /// The caller frees it.
 static inline char *text_of_document(const struct document *document)
 {

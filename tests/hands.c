@@ -465,7 +465,7 @@ static double of_editor(struct session *s, const char *name)
                    {"seconds", is_on(e, SWITCH_SECONDS)},
                    {"sliding", inspector_is_dragging(e->inspector)},
                    {"speed", playback->speed},
-                   {"stage.characters", editor_stage(e)->character_count},
+                   {"stage.models", editor_stage(e)->model_count},
                    {"stage.tails", e->stage->tail_count},
                    {"steps", (double)history_done(s->history)},
                    {"tip.behind", pose->matrix[24][12] - pose->matrix[0][12]},

@@ -32,7 +32,7 @@ static inline void pose_tail(const struct tail *tail, const wiggly_value *values
 /// All vertex positions of a posed fox, `count` of them. The caller frees them.
 static inline float (*fox_places(const struct rig_pose *fox, int *count))[3]
 {
-    const struct gltf *gltf = &fox->model.imported->gltf;
+    const struct gltf *gltf = &fox->imported->gltf;
     const float *root = fox->model.root;
     *count = gltf_vertex_count(gltf, gltf->node_count - 1);
     float(*place)[3] = calloc((size_t)*count, sizeof *place);

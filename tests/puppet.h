@@ -5,6 +5,9 @@
 #include "model/figure.h"
 #include "models/isosurface.h"
 #include "near.h"
+#include "rig/models.h"
+#include "temporary.h"
+#include <unistd.h>
 
 static inline float puppet_distance(const float p[3])
 {
@@ -57,6 +60,28 @@ static inline void puppet_write(struct character *character, const char *path)
 {
     assert_done(character_write(path, character, true, &error));
     character_free(character);
+}
+
+/// The model that a character is in its file; takes over the character.
+static inline struct imported puppet_imported(struct character *character)
+{
+    struct imported imported;
+    const char *path = temporary_path("puppet-imported.glb");
+    puppet_write(character, path);
+    assert_done(imported_read(&imported, path, &error));
+    assert_int_equal(unlink(path), 0);
+    return imported;
+}
+
+/// As it stands at a place.
+static inline struct model_pose puppet_pose(const struct imported *imported, const float at[3])
+{
+    return (struct model_pose){
+        .gltf = &imported->gltf,
+        .pose = &imported->rest,
+        .root = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, at[0], at[1] - imported->gltf.lo[1], at[2], 1},
+        .ground = at[1],
+        .figure = &imported->figure};
 }
 
 /// A character's figure; takes over the character.

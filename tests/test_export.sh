@@ -190,4 +190,4 @@ write_box box.obj
 sed -i -e 's/^v 0 0 0$/& 1 0.5 0/' -e 's/^v 0 2 0$/& 0.2 0.1 0/' box.obj
 expect 0 "simulate" wiggly simulate box.obj --tets 60 --seconds 1 --substeps 2 -o up.npy
 expect 0 "analyze" wiggly analyze up.npy --rest box.obj --fps 24 --modes 2 -o box.glb
-validated "an imported character with a new clip, and what wiggly analyze writes" "" "${read[@]}"
+validated "a character with a new clip, and what wiggly analyze writes" "" "${read[@]}"

@@ -275,9 +275,9 @@ static int do_part(struct world *world, const struct words *w, struct error *err
                                 (enum channel_part)word_among(w->word[4], parts), error);
     if (is(w, "unchannel")) return edit_channel_remove(d, at, error);
     if (is(w, "drive")) {
-        const struct rig *rig = is_there && d->rigs[w->rig]->kind == RIG_CHARACTER ? d->rigs[w->rig] : NULL;
+        const struct rig *rig = is_there && d->rigs[w->rig]->kind == RIG_MODEL ? d->rigs[w->rig] : NULL;
         struct drive drive = {.name = w->word[6]};
-        if (rig && NUMBER(2) >= 0 && NUMBER(2) < rig->character.drive_count) drive = rig->character.drives[NUMBER(2)];
+        if (rig && NUMBER(2) >= 0 && NUMBER(2) < rig->model.drive_count) drive = rig->model.drives[NUMBER(2)];
         drive.spline = spline_called(d, w->word[3]), drive.amplitude = w->number[4], drive.lag = w->number[5];
         return edit_drive(d, w->rig, NUMBER(2), &drive, error);
     }
@@ -317,7 +317,7 @@ static int do_rig(struct document *d, const struct words *w, struct error *error
     if (is(w, "clip")) wanted = 1, changed.model.clip = w->word[2];
     if (is(w, "turn")) wanted = 1, changed.chain.turn = w->number[2];
     if (is(w, "offset")) wanted = 1, changed.offset = w->number[2];
-    if (is(w, "floor")) wanted = 1, changed.character.has_floor = true, changed.character.floor = w->number[2];
+    if (is(w, "floor")) wanted = 1, changed.model.has_floor = true, changed.model.floor = w->number[2];
     return wanted ? edit_rig_set(d, w->rig, &changed, error) : -1;
 }
 

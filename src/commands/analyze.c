@@ -354,13 +354,13 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
     char folder[PATH_LIMIT], name[] = "character", *file = need_text(path_name(model));
     struct document *document = document_create();
     if (path_folder(model, folder) && folder[0]) document->folder = need_text(folder);
-    struct drive drives[CHARACTER_MAX_DRIVES];
+    struct drive drives[MODEL_MAX_DRIVES];
     struct rig rig = {
-        .kind = RIG_CHARACTER, .name = name, .character = {.model = file, .phases = -1, .drives = drives}};
-    int chosen[CHARACTER_MAX_DRIVES], count = 0;
+        .kind = RIG_MODEL, .name = name, .model = {.model = file, .scale = 1, .phases = -1, .drives = drives}};
+    int chosen[MODEL_MAX_DRIVES], count = 0;
     double fps = 0, seconds = 0;
     for (int rank = 0; rank < character->coordinate_count; rank++) {
-        for (int i = 0; i < character->coordinate_count && count < CHARACTER_MAX_DRIVES; i++) {
+        for (int i = 0; i < character->coordinate_count && count < MODEL_MAX_DRIVES; i++) {
             if (analyzed[i].rank == rank) chosen[count++] = i;
         }
     }
@@ -383,7 +383,7 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
                    {PARAMETER_DAMPING, knots->damping},
                    {PARAMETER_WIND_UP, 0}, // the fit is to the whole curve
                    {PARAMETER_BANDWIDTH, knots->bandwidth}};
-        drives[rig.character.drive_count++] = (struct drive){.name = driver, .spline = i, .amplitude = 1};
+        drives[rig.model.drive_count++] = (struct drive){.name = driver, .spline = i, .amplitude = 1};
         done = edit_spline_add(document, -1, driver, NULL, error);
         for (int p = 0; done && p < (knots->mode == WIGGLY_COMPLEX ? 5 : 4); p++) {
             const struct param value = param_number(set[p].value);

@@ -88,9 +88,8 @@ int command_export(int argc, char **argv)
     bool done = true;
     if (job.paint) { // of the named character, or of the first one with paint
         const struct paint *paint = NULL;
-        for (int i = -1; !paint && (i = document_next_rig(document, RIG_CHARACTER, i)) >= 0;) {
-            if (!o.rig || strcmp(rig_title(document->rigs[i]), o.rig) == 0)
-                paint = document->rigs[i]->character.painted;
+        for (int i = -1; !paint && (i = document_next_rig(document, RIG_MODEL, i)) >= 0;) {
+            if (!o.rig || strcmp(rig_title(document->rigs[i]), o.rig) == 0) paint = document->rigs[i]->model.painted;
         }
         done = paint ? paint_write(paint, job.output, &error)
                      : fail(&error, ERROR_INPUT, "%s: expected paint on %s, got none", job.scene,

@@ -82,9 +82,7 @@ int command_rig(int argc, char **argv)
     if (!opened_read(&opened, job.character, &error)) return options_end(false, &error);
     bool done = true;
     const struct imported *character = models_imported(opened.models, opened.document, 0);
-    if (!character) {
-        done = fail(&error, ERROR_INPUT, "%s: expected a character with bones, got a soft one", job.character);
-    } else if (!job.output) {
+    if (!job.output) {
         contents_print(character);
     } else {
         const struct gltf *gltf = &character->gltf;

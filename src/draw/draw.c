@@ -584,9 +584,11 @@ double draw_reference_ms(struct draw *draw, int width, int height, float scale, 
     }
     gltf_pose_world(&fox, &pose);
     struct stage_model *shown = &stage.models[stage.model_count++];
-    *shown = (struct stage_model){
-        .gltf = &fox, .pose = &pose, .ground = -FOX_BASE_HEIGHT, .dusk = 0.35f, .lo = {-1, -1, -1}, .hi = {1, 2, 2}};
-    glm_mat4_identity((vec4 *)shown->root);
+    *shown = (struct stage_model){.posed = {.gltf = &fox, .pose = &pose, .ground = -FOX_BASE_HEIGHT},
+                                  .dusk = 0.35f,
+                                  .lo = {-1, -1, -1},
+                                  .hi = {1, 2, 2}};
+    glm_mat4_identity((vec4 *)shown->posed.root);
     const struct draw_input input = {width, height, scale, false, &list, &stage, -1, 1.0f};
     for (int i = 0; i < count; i++) {
         struct draw_cost cost;

@@ -1,4 +1,4 @@
-/// Collects and poses the triangles of characters, finds their outlines and builds skirts.
+/// Collects, colours and poses the triangles of models, finds their outlines and builds skirts.
 #include "draw/posed.h"
 #include "base/need.h"
 #include "model/adjacency.h"
@@ -61,7 +61,34 @@ static void mark_front(struct posed *mesh, const float eye[3])
     }
 }
 
-// --- imported characters and foxes
+// --- models
+
+/// A material's number; −1 or one that phases hide: plain white.
+static void dress(struct posed_part *part, const struct gltf *gltf, bool hidden)
+{
+    static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
+    const struct gltf_part *own = part->own;
+    const struct gltf_material *material = own->material < 0 || hidden ? &plain : &gltf->materials[own->material];
+    const bool is_face = own->mark && strcmp(material->name, "face") == 0;
+    part->both_sides = material->double_sided;
+    const bool is_plain = material->image < 0 && material->cutoff <= 0.0f && !material->blended && !part->both_sides;
+    part->program = is_face ? PROGRAM_FACE : own->mark ? PROGRAM_COAT : is_plain ? PROGRAM_PLAIN : PROGRAM_PICTURED;
+    part->cutoff = material->cutoff;
+    part->blended = material->blended;
+    memcpy(part->base, material->color, sizeof part->base);
+}
+
+static void look_at(const struct gltf_part *part, int v, struct posed_look *look)
+{
+    if (part->mark) {
+        const float *mark = part->mark[v], *place = part->position[v], *fur = part->fur[v];
+        *look = (struct posed_look){{place[0], place[1], place[2], fur[0]}, {mark[0], mark[1]}, {mark[2], fur[1]}, 1};
+        return;
+    }
+    *look = (struct posed_look){.color = {1, 1, 1, 1}, .cover = 1};
+    if (part->color) memcpy(look->color, part->color[v], sizeof look->color);
+    if (part->uv) memcpy(look->uv, part->uv[v], sizeof look->uv);
+}
 
 void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
 {
@@ -84,39 +111,16 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
         const struct gltf_mesh *shown = &gltf->meshes[gltf->nodes[n].mesh];
         for (int p = 0; p < shown->part_count; p++) {
             const struct gltf_part *part = &shown->parts[p];
-            static const float white[4] = {1, 1, 1, 1};
-            static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
-            const struct gltf_material *material = part->material < 0 ? &plain : &gltf->materials[part->material];
-            const bool is_plain =
-                material->image < 0 && material->cutoff <= 0.0f && !material->blended && !material->double_sided;
-            const bool is_face = part->mark && strcmp(material->name, "face") == 0;
             struct posed_part *added = &mesh->parts[mesh->part_count++];
             *added = (struct posed_part){.first = mesh->index_count,
                                          .end = mesh->index_count + part->index_count,
                                          .vertex = mesh->vertex_count,
                                          .node = n,
-                                         .program = is_face      ? PROGRAM_FACE
-                                                    : part->mark ? PROGRAM_COAT
-                                                    : is_plain   ? PROGRAM_PLAIN
-                                                                 : PROGRAM_PICTURED,
-                                         .material = part->material,
-                                         .cutoff = material->cutoff,
-                                         .blended = material->blended,
-                                         .both_sides = material->double_sided};
-            memcpy(added->base, material->color, sizeof added->base);
+                                         .own = part,
+                                         .material = part->material};
+            dress(added, gltf, false);
             memcpy(mesh->place + added->vertex, part->position, (size_t)part->vertex_count * sizeof *mesh->place);
-            for (int v = 0; v < part->vertex_count; v++) {
-                struct posed_look *look = &mesh->looks[added->vertex + v];
-                if (part->mark) {
-                    const float *mark = part->mark[v], *place = part->position[v], *fur = part->fur[v];
-                    *look = (struct posed_look){
-                        {place[0], place[1], place[2], fur[0]}, {mark[0], mark[1]}, {mark[2], fur[1]}, 1};
-                    continue;
-                }
-                memcpy(look->color, part->color ? part->color[v] : white, sizeof look->color);
-                look->cover = 1;
-                if (part->uv) memcpy(look->uv, part->uv[v], sizeof look->uv);
-            }
+            for (int v = 0; v < part->vertex_count; v++) look_at(part, v, &mesh->looks[added->vertex + v]);
             for (int i = 0; i < part->index_count; i++)
                 mesh->indices[added->first + i] = (uint32_t)added->vertex + part->indices[i];
             mesh->vertex_count += part->vertex_count;
@@ -126,34 +130,10 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
     }
 }
 
-void posed_pose_gltf(struct posed *mesh, const struct stage_model *shown, const float eye[3])
-{
-    const struct gltf *gltf = shown->gltf;
-    mat4s to_world = mat4_from(shown->root);
-    for (int p = 0; p < mesh->part_count; p++) {
-        struct posed_part *part = &mesh->parts[p];
-        const int node = part->node;
-        part->mirrored = gltf->nodes[node].skin < 0 && glms_mat4_det(mat4_from(shown->pose->world[node])) < 0.0f;
-        if (p == 0 || part[-1].node != node)
-            gltf_pose_vertices(gltf, shown->pose, node, mesh->place + part->vertex, mesh->normal + part->vertex);
-    }
-    for (int v = 0; v < mesh->vertex_count; v++) {
-        glm_mat4_mulv3(to_world.raw, mesh->place[v], 1.0f, mesh->place[v]);
-        glm_mat4_mulv3(to_world.raw, mesh->normal[v], 0.0f, mesh->normal[v]);
-    }
-    mark_front(mesh, eye);
-}
-
-// --- soft characters
-
-/// Its own colour or that of its phase. The face keeps its colour: without eyes nobody sees which way the animal looks.
+/// The colour of a vertex by its phase. The face keeps its colour: without eyes nobody sees which way the animal looks.
 static void color_vertex(const struct figure *figure, int map, int axis, int vertex, struct posed_look *look)
 {
     const struct character *c = &figure->character;
-    *look = (struct posed_look){.color = {[3] = 1.0f}, .cover = 1.0f};
-    memcpy(look->color, c->color[vertex], sizeof c->color[vertex]);
-    if (c->looks.uv && !c->looks.corner) memcpy(look->uv, c->looks.uv[vertex], sizeof look->uv);
-    if (map < 0) return;
     const float largest = figure->largest[map][axis], scale = largest > 0.0f ? 1.0f / largest : 0.0f;
     look->phase[0] = scale * c->coordinates[map].re[vertex][axis];
     look->phase[1] = scale * c->coordinates[map].im[vertex][axis];
@@ -165,74 +145,76 @@ static void color_vertex(const struct figure *figure, int map, int axis, int ver
     glm_vec3_lerp(color, mapped, share, color);
 }
 
-/// A phase map shows no materials.
-static void dress(struct posed *mesh, const struct looks *looks)
+/// The first vertex of a part in its figure.
+static int figure_first(const struct posed *mesh, const struct posed_part *part, int first)
 {
-    for (int p = 0; p < mesh->part_count; p++) {
-        static const struct looks_material none = {.color = {1, 1, 1, 1}};
-        struct posed_part *part = &mesh->parts[p];
-        const bool is_seen = part->material >= 0 && mesh->map_coordinate < 0;
-        const struct looks_material *material = is_seen ? &looks->materials[part->material] : &none;
-        memcpy(part->base, material->color, sizeof part->base);
-        part->blended = part->base[3] < 1.0f;
-        part->program = material->image || part->blended || part->both_sides ? PROGRAM_PICTURED : PROGRAM_PLAIN;
-    }
+    int at = 0;
+    for (int p = first; &mesh->parts[p] < part && !part->own->shared; p++)
+        at += mesh->parts[p].own->shared ? 0 : mesh->parts[p].own->vertex_count;
+    return at;
 }
 
-/// The triangles of a material; −1: those with none of the first `materials`.
-static void add_material(struct posed *mesh, const struct figure *figure, int material, int materials)
+static int first_of(const struct posed *mesh, int node)
 {
-    const struct character *c = &figure->character;
-    struct posed_part *part = &mesh->parts[mesh->part_count];
-    *part = (struct posed_part){.first = mesh->index_count, .material = material};
-    for (int i = 0; i < c->index_count; i += 3) {
-        const uint32_t of = materials > 0 ? c->looks.material[i / 3] : 0;
-        if ((of < (uint32_t)materials ? (int)of : -1) != material) continue;
-        memcpy(mesh->indices + mesh->index_count, c->indices + i, 3 * sizeof *c->indices);
-        mesh->index_count += 3;
-    }
-    part->end = mesh->index_count;
-    mesh->part_count += part->end > part->first;
+    int p = 0;
+    while (p < mesh->part_count && mesh->parts[p].node != node) p++;
+    return p;
 }
 
-void posed_from_figure(struct posed *mesh, const struct figure *figure)
+bool posed_map(struct posed *mesh, const struct stage_model *shown)
 {
-    const struct character *c = &figure->character;
-    const int materials = looks_show(&c->looks) ? c->looks.material_count : 0;
-    allocate(mesh, (size_t)c->vertex_count, (size_t)c->index_count, (size_t)materials + 1);
-    mesh->vertex_count = c->vertex_count;
-    memcpy(mesh->place, c->position, (size_t)c->vertex_count * sizeof *mesh->place);
-    for (int v = 0; v < c->vertex_count; v++) color_vertex(figure, -1, 0, v, &mesh->looks[v]);
-    for (int m = 0; m < materials; m++) add_material(mesh, figure, m, materials);
-    add_material(mesh, figure, -1, materials);
-    find_neighbours(mesh, 0);
-    bool open = false; // then its back can be seen, as a flag's
-    for (int i = 0; i < mesh->index_count; i++) open = open || mesh->neighbours[i] == NEIGHBOUR_NONE;
-    for (int p = 0; p < mesh->part_count; p++) mesh->parts[p].both_sides = open;
-    dress(mesh, &c->looks);
-}
-
-bool posed_map_figure(struct posed *mesh, const struct stage_character *shown)
-{
-    const struct figure *figure = shown->figure;
-    const int map = shown->map_coordinate, axis = shown->map_axis;
-    if (map == mesh->map_coordinate && (map < 0 || (axis == mesh->map_axis && figure->version == mesh->map_version)))
+    const struct figure *figure = shown->posed.figure;
+    const int map = figure ? shown->map_coordinate : -1, axis = shown->map_axis;
+    if (map == mesh->map_coordinate && (map < 0 || (axis == mesh->map_axis && figure->id == mesh->map_figure &&
+                                                    figure->version == mesh->map_version)))
         return false;
     mesh->map_coordinate = map;
     mesh->map_axis = axis;
-    mesh->map_version = figure->version;
-    for (int v = 0; v < mesh->vertex_count; v++) color_vertex(figure, map, axis, v, &mesh->looks[v]);
-    dress(mesh, &figure->character.looks);
+    const int first = figure ? first_of(mesh, figure->character.node) : mesh->part_count;
+    if (figure) mesh->map_figure = figure->id, mesh->map_version = figure->version;
+    for (int p = first; p < mesh->part_count && mesh->parts[p].node == mesh->parts[first].node; p++) {
+        struct posed_part *part = &mesh->parts[p];
+        const int from = figure_first(mesh, part, first);
+        dress(part, shown->posed.gltf, map >= 0);
+        for (int v = 0; v < part->own->vertex_count; v++) {
+            struct posed_look *look = &mesh->looks[part->vertex + v];
+            look_at(part->own, v, look);
+            if (map >= 0) color_vertex(figure, map, axis, from + v, look);
+        }
+    }
     return true;
 }
 
-void posed_pose_figure(struct posed *mesh, const struct stage_character *shown, const float eye[3])
+void posed_pose(struct posed *mesh, const struct stage_model *shown, const float eye[3])
 {
-    const struct figure *figure = shown->figure;
-    const float place[3] = {shown->position[0], shown->position[1] - figure->lo[1], shown->position[2]};
-    for (int v = 0; v < mesh->vertex_count; v++) {
-        morph_vertex(figure, &shown->morph, v, mesh->place[v], mesh->normal[v]);
-        for (int k = 0; k < 3; k++) mesh->place[v][k] += place[k];
+    const struct model_pose *posed = &shown->posed;
+    const struct gltf *gltf = posed->gltf;
+    const int soft = posed->figure ? posed->figure->character.node : -1;
+    mat4s to_world = mat4_from(posed->root);
+    for (int p = 0; p < mesh->part_count; p++) {
+        struct posed_part *part = &mesh->parts[p];
+        const int node = part->node, end = part->vertex + gltf_vertex_count(gltf, node);
+        part->mirrored = gltf->nodes[node].skin < 0 && glms_mat4_det(mat4_from(posed->pose->world[node])) < 0.0f;
+        if (p > 0 && part[-1].node == node) continue;
+        float(*place)[3] = mesh->place + part->vertex, (*normal)[3] = mesh->normal + part->vertex;
+        if (node != soft) {
+            gltf_pose_vertices(gltf, posed->pose, node, place, normal);
+            for (int v = part->vertex; v < end; v++) {
+                glm_mat4_mulv3(to_world.raw, mesh->place[v], 1.0f, mesh->place[v]);
+                glm_mat4_mulv3(to_world.raw, mesh->normal[v], 0.0f, mesh->normal[v]);
+            }
+            continue;
+        }
+        figure_vertices(posed, place, normal, NULL, NULL);
+        int last = p; // parts that share the figure's vertices get copies, from behind
+        while (last + 1 < mesh->part_count && mesh->parts[last + 1].node == node) last++;
+        for (; last > p; last--) {
+            const struct posed_part *copy = &mesh->parts[last];
+            const int from = figure_first(mesh, copy, p);
+            const size_t size = (size_t)copy->own->vertex_count * sizeof *place;
+            memmove(mesh->place + copy->vertex, place + from, size);
+            memmove(mesh->normal + copy->vertex, normal + from, size);
+        }
     }
     mark_front(mesh, eye);
 }

@@ -1,4 +1,4 @@
-/// Imported characters, foxes and soft characters as triangles in world space, posed once per frame on the CPU. Skirts are strips one pixel
+/// Characters and foxes as triangles in world space, posed once per frame on the CPU. Skirts are strips one pixel
 /// wide along outlines that fade outwards. They anti-alias outlines without multisampling, also where a leg crosses another. Private to the
 /// stage's files of draw/.
 #ifndef DRAW_POSED_H
@@ -16,9 +16,10 @@ struct posed_look {
 
 /// The triangles of one material.
 struct posed_part {
-    int first, end;             ///< indices
-    int vertex;                 ///< its first vertex
-    int node;                   ///< the file's node that shows it
+    int first, end; ///< indices
+    int vertex;     ///< its first vertex
+    int node;       ///< the file's node that shows it
+    const struct gltf_part *own;
     bool mirrored;              ///< as posed, triangles are clockwise seen from outside
     enum stage_program program; ///< for its surface
     int material;               ///< −1: none
@@ -38,8 +39,8 @@ struct posed {
     bool *front; ///< per triangle: faces the eye
     struct posed_part *parts;
     int vertex_count, index_count, part_count;
-    int map_coordinate, map_axis; ///< of the shown phases
-    uint64_t map_version;         ///< version of the figure whose phases are shown
+    int map_coordinate, map_axis;     ///< of the shown phases
+    uint64_t map_figure, map_version; ///< the figure whose phases are shown, and its version
     // On the GPU.
     GLuint vertex_array, index_buffer;
     GLuint moving_buffer, look_buffer; ///< all positions, then all normals; looks of vertices
@@ -49,16 +50,13 @@ struct posed {
 
 /// The meshes of all nodes. Empty if they have too many triangles: a small file can claim any number.
 void posed_from_gltf(struct posed *mesh, const struct gltf *gltf);
-/// The triangles, sorted by material unless materials are hidden.
-void posed_from_figure(struct posed *mesh, const struct figure *figure);
 void posed_free(struct posed *mesh);
 
-/// These move all vertices and mark the triangles that face the eye. They allocate nothing.
-void posed_pose_gltf(struct posed *mesh, const struct stage_model *shown, const float eye[3]);
-void posed_pose_figure(struct posed *mesh, const struct stage_character *shown, const float eye[3]);
+/// Moves all vertices and marks the triangles that face the eye. Allocates nothing.
+void posed_pose(struct posed *mesh, const struct stage_model *shown, const float eye[3]);
 
-/// Switches between own colours and phases; false if nothing changed.
-bool posed_map_figure(struct posed *mesh, const struct stage_character *shown);
+/// Switches between own colours and the figure's phases; false if nothing changed.
+bool posed_map(struct posed *mesh, const struct stage_model *shown);
 
 // Skirts.
 

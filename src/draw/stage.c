@@ -69,8 +69,7 @@ static mat4s clip_from_world_of(const struct stage_view *view)
 static float lowest_ground(const struct stage_view *view)
 {
     float lowest = INFINITY;
-    for (int c = 0; c < view->character_count; c++) lowest = fminf(lowest, view->characters[c].position[1]);
-    for (int m = 0; m < view->model_count; m++) lowest = fminf(lowest, view->models[m].ground);
+    for (int m = 0; m < view->model_count; m++) lowest = fminf(lowest, view->models[m].posed.ground);
     return lowest < INFINITY ? lowest : 0.0f;
 }
 
@@ -107,20 +106,6 @@ struct area stage_extent(const struct stage_view *view, struct area viewport, in
     struct extent extent = {
         .clip_from_world = clip_from_world_of(view), .lo = {INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY}};
     const float ground = lowest_ground(view);
-    for (const struct stage_character *c = view->characters; c < view->characters + view->character_count; c++) {
-        float lo[3], hi[3]; // the box at rest, grown by the amplitudes
-        for (int k = 0; k < 3; k++) {
-            float reach = 0.0f;
-            for (int d = 0; d < c->morph.count; d++) {
-                const float *weight = c->morph.weight[d];
-                reach += hypotf(weight[0], weight[1]) * c->figure->largest[c->morph.coordinate[d]][k];
-            }
-            const float place = c->position[k] - (k == 1 ? c->figure->lo[1] : 0.0f);
-            lo[k] = place + c->figure->lo[k] - reach;
-            hi[k] = place + c->figure->hi[k] + reach;
-        }
-        add_box(&extent, lo, hi);
-    }
     for (int m = 0; m < view->model_count; m++) add_box(&extent, view->models[m].lo, view->models[m].hi);
     for (const struct shadow_blob *blob = view->blobs; blob < view->blobs + view->blob_count; blob++) {
         const float lo[3] = {blob->x - blob->radius, ground, blob->z - blob->radius};
@@ -201,9 +186,6 @@ static void set_srgb(GLint location, uint32_t color)
 /// Attributes of stage_skirt.vert.
 enum { POSED_PLACE, POSED_NORMAL, POSED_COLOR, POSED_UV, POSED_PHASE, POSED_COVER };
 
-/// Most bytes of a figure's decoded pictures.
-enum { PIXEL_ROOM = 256 << 20 };
-
 /// Sets the attributes of looks that lie in each `stride` bytes at an offset.
 static void set_look_attributes(size_t stride, size_t offset)
 {
@@ -264,20 +246,13 @@ static void delete_mesh(struct posed *mesh)
 enum { PICTURE_UNIT = 1 };
 enum { EDGES = 768, CORNERS = SKIRT_CORNERS * EDGES }; ///< edges whose skirts are drawn in one call
 /// The cache holds more meshes than a picture shows; a mesh unused for FORGOTTEN pictures is freed.
-enum {
-    MAX_SHOWN = STAGE_MAX_CHARACTERS + STAGE_MAX_MODELS,
-    MAX_KEPT = MAX_SHOWN + STAGE_MAX_CHARACTERS,
-    FORGOTTEN = 1000
-};
+enum { MAX_KEPT = STAGE_MAX_MODELS + 4, FORGOTTEN = 1000 };
 
 static const float PHASE_LINE = 1.25f; ///< logical pixels
 
-enum mesh_kind { MESH_NONE, MESH_MODEL, MESH_FIGURE };
-
 /// A cached mesh.
 struct kept {
-    enum mesh_kind kind;
-    uint64_t id; ///< of the file or figure
+    uint64_t id; ///< of the file; 0: none
     long used;   ///< number of the last picture that showed it
     struct posed mesh;
 };
@@ -300,7 +275,7 @@ struct stage_renderer {
     struct program programs[PROGRAMS];
     struct stage_flat flat;
     struct kept kept[MAX_KEPT];
-    struct shown shown[MAX_SHOWN];
+    struct shown shown[STAGE_MAX_MODELS];
     int shown_count;
     long clock; ///< counts pictures
     GLuint white;
@@ -310,14 +285,14 @@ struct stage_renderer {
     struct skirts *skirts;
 };
 
-/// A cached mesh of this file or figure that this picture does not use yet, as several rigs may share a file. Otherwise an empty entry,
+/// A cached mesh of this file that this picture does not use yet, as several rigs may share a file. Otherwise an empty entry,
 /// after freeing the least recently used mesh and all unused for long.
-static struct kept *find_mesh(struct stage_renderer *stage, enum mesh_kind kind, uint64_t id)
+static struct kept *find_mesh(struct stage_renderer *stage, uint64_t id)
 {
     struct kept *oldest = &stage->kept[0];
     for (int i = 0; i < MAX_KEPT; i++) {
         struct kept *kept = &stage->kept[i];
-        if (kept->kind == kind && kept->id == id && kept->used < stage->clock) return kept;
+        if (kept->id == id && kept->used < stage->clock) return kept;
         if (kept->used < oldest->used) oldest = kept;
     }
     for (int i = 0; i < MAX_KEPT; i++) {
@@ -329,65 +304,13 @@ static struct kept *find_mesh(struct stage_renderer *stage, enum mesh_kind kind,
     return oldest;
 }
 
-static void show_mesh(struct stage_renderer *stage, struct kept *kept, enum mesh_kind kind, uint64_t id,
-                      struct shown shown)
-{
-    kept->kind = kind;
-    kept->id = id;
-    kept->used = stage->clock;
-    shown.mesh = &kept->mesh;
-    stage->shown[stage->shown_count++] = shown;
-}
-
-static long add_character(struct stage_renderer *stage, const struct stage_character *shown, const float eye[3])
-{
-    const struct figure *figure = shown->figure;
-    const struct looks *looks = &figure->character.looks;
-    struct kept *kept = find_mesh(stage, MESH_FIGURE, figure->id);
-    struct posed *mesh = &kept->mesh;
-    const bool is_new = kept->kind == MESH_NONE;
-    long bytes = 0;
-    if (is_new) {
-        posed_from_figure(mesh, figure);
-        bytes += upload_mesh(mesh);
-        mesh->picture_count = looks->material_count;
-        mesh->pictures = pool_take(&mesh->pool, (size_t)looks->material_count, sizeof *mesh->pictures);
-    }
-    size_t room = PIXEL_ROOM;
-    for (int p = 0; is_new && p < mesh->part_count; p++) {
-        struct posed_part *part = &mesh->parts[p];
-        if (part->material < 0 || !looks->materials[part->material].image) continue;
-        const struct looks_material *own = &looks->materials[part->material], *material = looks->materials;
-        while (!material->image || material->image_size != own->image_size ||
-               memcmp(material->image, own->image, own->image_size) != 0)
-            material++; // the first with the same picture
-        GLuint *picture = &mesh->pictures[material - looks->materials];
-        struct gltf_image image = {0};
-        if (!*picture && gltf_decode_image(material->image, material->image_size, room, &image, NULL)) {
-            bytes += upload_picture(picture, &image);
-            room -= 4 * (size_t)image.width * (size_t)image.height;
-            free(image.pixels);
-        }
-        part->picture = *picture;
-    }
-    if (posed_map_figure(mesh, shown)) {
-        const size_t size = (size_t)mesh->vertex_count * sizeof *mesh->looks;
-        glBindBuffer(GL_ARRAY_BUFFER, mesh->look_buffer);
-        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)size, mesh->looks, GL_STATIC_DRAW);
-        bytes += (long)size;
-    }
-    posed_pose_figure(mesh, shown, eye);
-    show_mesh(stage, kept, MESH_FIGURE, figure->id,
-              (struct shown){.shade = {shown->position[1], 0.3f * (figure->hi[1] - figure->lo[1])}});
-    return bytes + upload_places(mesh);
-}
-
 static long add_model(struct stage_renderer *stage, const struct stage_model *shown, const float eye[3])
 {
-    const struct gltf *gltf = shown->gltf;
-    struct kept *kept = find_mesh(stage, MESH_MODEL, gltf->id);
+    const struct model_pose *posed = &shown->posed;
+    const struct gltf *gltf = posed->gltf;
+    struct kept *kept = find_mesh(stage, gltf->id);
     struct posed *mesh = &kept->mesh;
-    const bool is_new = kept->kind == MESH_NONE;
+    const bool is_new = kept->id == 0;
     long bytes = 0;
     if (is_new) {
         posed_from_gltf(mesh, gltf);
@@ -414,10 +337,19 @@ static long add_model(struct stage_renderer *stage, const struct stage_model *sh
         part->picture = image >= 0 ? mesh->pictures[image] : 0;
         part->sampler = mesh->samplers[part->material];
     }
-    posed_pose_gltf(mesh, shown, eye);
-    show_mesh(stage, kept, MESH_MODEL, gltf->id,
-              (struct shown){.shade = {shown->ground, shown->dusk},
-                             .blink = gltf->weight_count > 0 ? shown->pose->weights[0] : 0.0f});
+    if (posed_map(mesh, shown)) {
+        const size_t size = (size_t)mesh->vertex_count * sizeof *mesh->looks;
+        glBindBuffer(GL_ARRAY_BUFFER, mesh->look_buffer);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)size, mesh->looks, GL_STATIC_DRAW);
+        bytes += (long)size;
+    }
+    posed_pose(mesh, shown, eye);
+    kept->id = gltf->id;
+    kept->used = stage->clock;
+    stage->shown[stage->shown_count++] =
+        (struct shown){.mesh = mesh,
+                       .shade = {posed->ground, shown->dusk},
+                       .blink = gltf->weight_count > 0 && !posed->figure ? posed->pose->weights[0] : 0.0f};
     return bytes + upload_places(mesh);
 }
 
@@ -615,7 +547,6 @@ void stage_upload(struct stage_renderer *stage, const struct stage_view *view, l
 {
     stage->clock++;
     stage->shown_count = 0;
-    for (int c = 0; c < view->character_count; c++) *bytes += add_character(stage, &view->characters[c], view->eye);
     for (int m = 0; m < view->model_count; m++) *bytes += add_model(stage, &view->models[m], view->eye);
 
     const struct png_picture *behind = &view->behind;
@@ -634,10 +565,6 @@ void stage_upload(struct stage_renderer *stage, const struct stage_view *view, l
     // The ground is as large as the largest figure needs.
     float largest = 0.0f;
     for (int k = 0; k < 3; k++) {
-        for (int c = 0; c < view->character_count; c++) {
-            const struct figure *figure = view->characters[c].figure;
-            largest = fmaxf(largest, figure->hi[k] - figure->lo[k]);
-        }
         for (int m = 0; m < view->model_count; m++)
             largest = fmaxf(largest, view->models[m].hi[k] - view->models[m].lo[k]);
     }

@@ -96,7 +96,7 @@ static bool choose_rigs(struct export_range *range, struct error *error)
     for (int i = 0; i < document->rig_count && i < SCENE_MAX_RIGS; i++) {
         const struct rig *rig = document->rigs[i];
         if (wanted && strcmp(form_name(rig), wanted) != 0) continue;
-        if (fits(format, form_kind(rig->kind)->holds)) {
+        if (fits(format, form_kind(range->posing, i)->holds)) {
             range->rigs[range->rig_count++] = i;
         } else if (unfit < 0) {
             unfit = i;
@@ -119,7 +119,7 @@ static bool choose_rigs(struct export_range *range, struct error *error)
                     wanted);
     if (none) {
         const struct rig *rig = document->rigs[unfit];
-        export_endings(form_kind(rig->kind)->holds, endings);
+        export_endings(form_kind(range->posing, unfit)->holds, endings);
         return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", format->ending,
                     rig_word(rig->kind), form_name(rig), endings);
     }
@@ -284,7 +284,7 @@ const float *range_root(const struct export_range *range, int rig, const struct 
 {
     const bool is_placed =
         range->options->as_shown || (range->rig_count > 1 && !(range->format->choices & CHOICE_ONE));
-    return is_placed && range->posing->document->rigs[rig]->kind == RIG_MODEL ? pose->model.root : NULL;
+    return is_placed && form_kind(range->posing, rig) == &model_form ? pose->model.root : NULL;
 }
 
 bool range_proceed(struct export_range *range, struct error *error)

@@ -16,7 +16,7 @@ enum export_choice {
     CHOICE_SIGNED = 32,
     CHOICE_SIZE = 64, ///< size of its pictures
     CHOICE_ALPHA = 128,
-    CHOICE_JOINTS = 256, ///< tails and imported characters only
+    CHOICE_JOINTS = 256, ///< tails and characters only
 };
 
 /// Films and pictures, which src/app/film.c draws. A browser has only the first.
@@ -69,7 +69,7 @@ struct export_options {
     double rate;            ///< keys or pictures per second; 0: one per sample or, in films, per frame
     int substeps;           ///< keys per frame, or 0
     bool is_signed;         ///< allows negative morph weights, which halves the number of targets
-    bool all_clips;         ///< applies chains to all clips of an imported character (glTF)
+    bool all_clips;         ///< applies chains to all clips of a character (glTF)
     bool as_shown;          ///< the stage's size and place, not the character's file's or a cache's node's
     // films and pictures (app/film.h)
     int size[2];      ///< pixels; 0: the format's

@@ -39,7 +39,7 @@ static void tail_columns(const struct export_range *range, int rig, const struct
 static bool tail_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                       struct error *error)
 {
-    const struct gltf *gltf = &pose->model.imported->gltf;
+    const struct gltf *gltf = pose->model.gltf;
     (void)posing, (void)rig, (void)error;
     const struct gltf_mesh *mesh = gltf->meshes;
     const float *root = pose->model.root, scale = root[0];
@@ -108,7 +108,7 @@ static void tail_vertices(const struct form *form, const struct rig_pose *pose, 
 {
     const float *root = pose->model.root;
     (void)as_shown;
-    const struct gltf *gltf = &pose->model.imported->gltf;
+    const struct gltf *gltf = pose->model.gltf;
     gltf_pose_vertices(gltf, pose->model.pose, gltf->node_count - 1, positions, NULL);
     for (int v = 0; v < form->vertex_count; v++)
         for (int k = 0; k < 3; k++) positions[v][k] = root[0] * positions[v][k] + root[12 + k];
@@ -118,7 +118,7 @@ const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, tail_
                                     tail_columns};
 const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = tail_columns};
 
-// --- a soft character: its mesh, and two morph targets per coordinate, as in its own file (model/character.h)
+// --- a soft character without bones: its mesh, and two morph targets per coordinate, as in its own file (model/character.h)
 
 /// The character with only the coordinates that the rig uses.
 struct moving {
@@ -129,9 +129,9 @@ struct moving {
 static bool character_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                            struct error *error)
 {
-    const struct figure *figure = pose->character.figure;
+    const struct figure *figure = pose->model.figure;
     const struct character *c = &figure->character;
-    (void)posing, (void)rig, (void)error;
+    (void)error;
     form->vertex_count = c->vertex_count;
     form->position = (const float(*)[3])c->position;
     form->normal = (const float(*)[3])c->normal;
@@ -147,9 +147,9 @@ static bool character_open(const struct posing *posing, int rig, const struct ri
     moving->character.coordinate_count = 0;
     form->character = &moving->character;
     for (int k = 0; k < c->coordinate_count; k++) {
-        const struct morph *morph = &pose->character.morph;
+        const struct model_rig *model = &posing->document->rigs[rig]->model;
         bool moves = false;
-        for (int m = 0; m < morph->count; m++) moves |= morph->coordinate[m] == k;
+        for (int d = 0; d < model->drive_count; d++) moves |= figure_find(figure, model->drives[d].name) == k;
         if (!moves) continue;
         moving->coordinates[moving->character.coordinate_count++] = c->coordinates[k];
         for (int part = 0; part < 2; part++)
@@ -159,17 +159,10 @@ static bool character_open(const struct posing *posing, int rig, const struct ri
     return true;
 }
 
-/// Places the lowest point of the mesh at rest on the rig's position.
-static void stand(const struct rig_pose *pose, float place[3])
-{
-    for (int k = 0; k < 3; k++)
-        place[k] = pose->character.position[k] - (k == 1 ? pose->character.figure->lo[1] : 0.0f);
-}
-
 static void character_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
 {
-    const struct morph *morph = &pose->character.morph;
-    stand(pose, key->translation);
+    const struct morph *morph = &pose->model.morph;
+    memcpy(key->translation, pose->model.root + 12, sizeof key->translation);
     for (int t = 0; t < form->target_count; t++) {
         key->weight[t] = 0;
         for (int k = 0; k < morph->count; k++) {
@@ -181,33 +174,35 @@ static void character_key(const struct form *form, const struct rig_pose *pose, 
 static void character_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown,
                                float (*positions)[3])
 {
-    float place[3] = {0};
-    if (as_shown) stand(pose, place);
-    for (int i = 0; i < form->vertex_count; i++) {
-        morph_vertex(pose->character.figure, &pose->character.morph, i, positions[i], NULL);
-        glm_vec3_add(positions[i], place, positions[i]);
-    }
+    for (int i = 0; !as_shown && i < form->vertex_count; i++)
+        morph_vertex(pose->model.figure, &pose->model.morph, i, positions[i], NULL);
+    if (as_shown) figure_vertices(&pose->model, positions, NULL, NULL, NULL);
 }
 
-/// Each coordinate's weight, a complex number.
-static void character_columns(const struct export_range *range, int rig, const struct rig_pose *pose, int key,
-                              form_column *column, void *user)
+/// Each driven coordinate's weight, a complex number.
+static void model_columns(const struct export_range *range, int rig, const struct rig_pose *pose, int key,
+                          form_column *column, void *user)
 {
-    const char *name = form_name(range->posing->document->rigs[rig]);
-    const struct character *c = &pose->character.figure->character;
-    const struct morph *morph = &pose->character.morph;
+    const struct rig *of = range->posing->document->rigs[rig];
+    const struct figure *figure = pose->model.figure;
+    const char *name = form_name(of);
     (void)key;
-    for (int k = 0; k < morph->count; k++) {
-        const char *coordinate = c->coordinates[morph->coordinate[k]].name;
-        column(user, (double)morph->weight[k][0], "%s.%s.re", name, coordinate);
-        column(user, (double)morph->weight[k][1], "%s.%s.im", name, coordinate);
+    for (int d = 0; figure && d < of->model.drive_count; d++) {
+        const int coordinate = figure_find(figure, of->model.drives[d].name);
+        const struct morph *morph = &pose->model.morph;
+        int k = 0;
+        if (coordinate < 0) continue;
+        while (k < morph->count && morph->coordinate[k] != coordinate) k++;
+        for (int part = 0; part < 2; part++)
+            column(user, k < morph->count ? (double)morph->weight[k][part] : 0, "%s.%s.%s", name,
+                   figure->character.coordinates[coordinate].name, part ? "im" : "re");
     }
 }
 
-const struct form_kind character_form = {FORM_MESH | FORM_POINTS, character_open, character_key, character_vertices,
-                                         character_columns};
+static const struct form_kind soft_form = {FORM_MESH | FORM_POINTS, character_open, character_key, character_vertices,
+                                           model_columns};
 
-// --- an imported character, in its file's space: its vertices, and the bones of its chains as joints
+// --- any other character, in its file's space: its vertices, and the bones of its chains as joints
 
 /// Vertices that a part does not share with its mesh's first: a cache has a row for each of the file's.
 static int own_vertices(const struct gltf_part *part) { return part->shared ? 0 : part->vertex_count; }
@@ -216,7 +211,7 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
                        struct error *error)
 {
     const struct model_rig *model = &posing->document->rigs[rig]->model;
-    const struct gltf *gltf = &pose->model.imported->gltf;
+    const struct gltf *gltf = pose->model.gltf;
     const int clip = gltf_find_clip(gltf, model->clip);
     const size_t nodes = (size_t)gltf->node_count;
     struct model_body *body = form->owned = pool_take(&form->pool, 1, sizeof *body);
@@ -259,13 +254,21 @@ static void model_key(const struct form *form, const struct rig_pose *pose, stru
 /// Node by node, each vertex of the file once.
 static void model_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3])
 {
-    const struct gltf *gltf = &pose->model.imported->gltf;
+    const struct gltf *gltf = pose->model.gltf;
     const struct model_body *body = form->owned;
     float(*to)[3] = positions;
     for (int n = 0; n < gltf->node_count; n++) {
         if (gltf_vertex_count(gltf, n) == 0) continue;
         const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[n].mesh];
         float(*from)[3] = body->posed;
+        const bool is_soft = pose->model.figure && n == pose->model.figure->character.node;
+        if (is_soft) {
+            struct model_pose inside = pose->model;
+            memcpy(inside.root, GLM_MAT4_IDENTITY, sizeof inside.root);
+            figure_vertices(&inside, to, NULL, NULL, NULL);
+            to += inside.figure->character.vertex_count;
+            continue;
+        }
         gltf_pose_vertices(gltf, pose->model.pose, n, from, NULL);
         for (const struct gltf_part *part = mesh->parts; part < mesh->parts + mesh->part_count; part++) {
             memcpy(to, from, (size_t)own_vertices(part) * sizeof *to);
@@ -283,11 +286,11 @@ static void model_vertices(const struct form *form, const struct rig_pose *pose,
         glm_mat4_mulv3(place.raw, positions[v], 1, positions[v]);
 }
 
-/// Its chains have the columns of a table; its own clip has none.
+/// Its chains have columns of their own; its clip has none.
 const struct form_kind model_form = {FORM_FILE | FORM_POINTS | FORM_JOINTS, model_open, model_key, model_vertices,
-                                     NULL};
+                                     model_columns};
 
-// --- the skeleton of an imported character: every bone with its clip and its chains
+// --- the skeleton of a character: every bone with its clip and its chains
 //
 // Bones are relative to their rest in the character's space, so that bones at rest are not turned. The first joint is the character's origin, and
 // holds the bones that have none above them.
@@ -332,13 +335,13 @@ static void add_joints(struct form *form, int node, int above)
 static bool skeleton_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                           struct error *error)
 {
-    const struct gltf *gltf = &pose->model.imported->gltf;
-    const struct skeleton *skeleton = &pose->model.imported->skeleton;
+    const struct gltf *gltf = pose->model.gltf;
+    const struct skeleton *skeleton = &pose->imported->skeleton;
     const size_t most = (size_t)gltf->node_count + 1;
     float ends[2][3];
     int tops = 0;
     struct source *source = form->owned = pool_take(&form->pool, 1, sizeof *source);
-    *source = (struct source){.imported = pose->model.imported,
+    *source = (struct source){.imported = pose->imported,
                               .joint_of = pool_take(&form->pool, most, sizeof *source->joint_of),
                               .node = pool_take(&form->pool, most, sizeof *source->node),
                               .turn = pool_take(&form->pool, most, sizeof *source->turn)};
@@ -399,7 +402,16 @@ const struct form_kind skeleton_form = {.holds = FORM_JOINTS, .open = skeleton_o
 static const struct form_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(FORM_ROW)};
 #undef FORM_ROW
 
-const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }
+const struct form_kind *form_kind(const struct posing *posing, int rig)
+{
+    const struct document *document = posing->document;
+    const struct rig *of = document->rigs[rig];
+    const bool stands = of->kind == RIG_MODEL && models_figure(posing->models, document, rig) && !of->model.clip &&
+                        of->model.scale == 1 && of->model.turn == 0 &&
+                        models_imported(posing->models, document, rig)->gltf.skin_count == 0 &&
+                        document_next_chain(document, rig, -1) < 0;
+    return stands ? &soft_form : kinds[of->kind];
+}
 
 const char *form_name(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
 
@@ -430,7 +442,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     struct rig_pose pose;
     const struct document *document = range->posing->document;
     const struct rig *source = document->rigs[rig];
-    *form = (struct form){.kind = kinds[source->kind]};
+    *form = (struct form){.kind = form_kind(range->posing, rig)};
     if (range->format->holds == FORM_JOINTS && source->kind == RIG_MODEL) form->kind = &skeleton_form;
     if (!range_pose(range, rig, 0, &pose, error)) return false;
     struct names names = {.between =

@@ -60,7 +60,7 @@ bool gltf_write(struct export_range *range, FILE *out, struct error *error);
 bool bvh_write(struct export_range *range, FILE *out, struct error *error);
 bool usda_write(struct export_range *range, FILE *out, struct error *error);
 
-/// Writes a rig other than an imported character as a .glb of its own.
+/// Writes a rig other than one that is kept in its file as a .glb of its own.
 bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error);
 
 /// Sets the keys, by the options and the document's range.
@@ -74,7 +74,7 @@ double range_seconds(const struct export_range *range, int key);
 /// Returns false with an error message if the model is missing.
 bool range_pose(const struct export_range *range, int rig, int key, struct rig_pose *pose, struct error *error);
 
-/// The matrix that places an imported character on the stage, if the file is to have it there; NULL: the character stays where its own file
+/// The matrix that places a character on the stage, if the file is to have it there; NULL: the character stays where its own file
 /// has it. Of all other rigs NULL: their forms are in the stage's space.
 const float *range_root(const struct export_range *range, int rig, const struct rig_pose *pose);
 
@@ -155,11 +155,11 @@ struct form_kind {
 RIG_KIND_LIST(FORM_KIND)
 #undef FORM_KIND
 
-/// The joints of an imported character, for formats that have only joints.
+/// The joints of a character, for formats that have only joints.
 extern const struct form_kind skeleton_form;
 
-/// A kind's form functions; NULL if it is not exported.
-const struct form_kind *form_kind(enum rig_kind kind);
+/// A rig's form functions: of its kind, or of a soft character that stands as it is in its file.
+const struct form_kind *form_kind(const struct posing *posing, int rig);
 
 /// A rig's name in files and messages: its own, or its kind's word.
 const char *form_name(const struct rig *rig);
@@ -174,7 +174,7 @@ char *form_text(struct pool *pool, const char *first, const char *second, const 
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error);
 void form_close(struct form *form);
 
-/// form.owned of an imported character. Its joints are the bones that chains bend.
+/// form.owned of a character. Its joints are the bones that chains bend.
 struct model_body {
     const struct gltf *gltf;
     const struct gltf_clip *clip; ///< the clip that plays, or NULL

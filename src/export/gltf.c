@@ -1,4 +1,4 @@
-/// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all. Or an imported character's own file with the keys of
+/// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all. Or a character's own file with the keys of
 /// its chains: its JSON is parsed, added to, and printed.
 ///
 /// The clip's other channels stay as they are in that file, bit for bit. If the scene shows another part of the clip, or several rounds of it,
@@ -273,7 +273,7 @@ bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error
     return write_scene(range, &rig, 1, true, out, error);
 }
 
-// --- an imported character's own file
+// --- a character's own file
 
 static const double EARLIER = 4e-6; ///< of a time and its clip's length: before a step, more than posing rounds
 static const double NEAR = 1e-3;    ///< frames of the grid between keys that count as one
@@ -842,13 +842,13 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     return done;
 }
 
-/// An imported character is written to a file of its own, without other rigs.
+/// A character is written to a file of its own, without other rigs.
 bool gltf_write(struct export_range *range, FILE *out, struct error *error)
 {
     const struct document *document = range->posing->document;
     for (int r = 0; r < range->rig_count; r++) {
         const struct rig *rig = document->rigs[range->rigs[r]];
-        if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
+        if (!(form_kind(range->posing, range->rigs[r])->holds & FORM_FILE)) continue;
         if (range->rig_count == 1) return write_model(range, out, error);
         return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",
                     form_name(rig), range->rig_choice);

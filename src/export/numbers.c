@@ -45,7 +45,7 @@ static bool write_row(struct export_range *range, int key, struct row *row, stru
     for (int r = 0; r < range->rig_count; r++) {
         const int rig = range->rigs[r];
         if (!range_pose(range, rig, key, &pose, error)) return false;
-        const struct form_kind *kind = form_kind(document->rigs[rig]->kind);
+        const struct form_kind *kind = form_kind(range->posing, rig);
         if (kind->columns) kind->columns(range, rig, &pose, key, write_column, row);
     }
     fputc('\n', row->out);

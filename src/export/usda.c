@@ -1,6 +1,6 @@
 /// Rigs as a USD scene in text: UsdSkel skeletons, blend shapes, a time sample a key. Metres, y up; time codes are the document's frames.
 ///
-/// Of an imported character it is its own model, of any other rig the one that its glTF file would hold. Every node that something shown hangs at
+/// Of a character it is its own model, of any other rig the one that its glTF file would hold. Every node that something shown hangs at
 /// is a joint, and each skin a skeleton of these, with a bind pose of its own. Textures are files in a folder beside it.
 #include "base/file.h"
 #include "base/need.h"
@@ -33,7 +33,7 @@ struct usda_model {
     const char *name; ///< of its prim
     FILE *out;
     const struct gltf *gltf;
-    bool is_own;               ///< not an imported character: the only clip of its model has its keys
+    bool is_own;               ///< not a character: the only clip of its model has its keys
     struct gltf_place *places; ///< [key · nodes + node], rotations the short way
     float *weights;            ///< [key · weights + weight]
     struct usda_shape {
@@ -536,7 +536,7 @@ struct run {
     int node;
     const struct gltf_part *parts;
     int count;
-    int owner; ///< the first part whose vertices others share, which leave theirs out; −1: none, as in an imported character's .pc2
+    int owner; ///< the first part whose vertices others share, which leave theirs out; −1: none, as in a character's .pc2
     int influences; ///< joints a vertex; 0: all hangs at the node's own
     const char *name;
 };
@@ -900,7 +900,7 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error)
             .range = range, .rig = rig, .name = usda_name(&names, form_name(source), false), .out = out};
         struct rig_pose pose;
         struct gltf gltf = {0};
-        model.is_own = !(form_kind(source->kind)->holds & FORM_FILE);
+        model.is_own = !(form_kind(range->posing, rig)->holds & FORM_FILE);
         if (model.is_own) { // read back from the glTF file that it would be
             char *data = NULL;
             size_t size = 0;
@@ -916,7 +916,7 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error)
             done = range_pose(range, rig, 0, &pose, error);
         }
         if (!done) break;
-        model.gltf = model.is_own ? &gltf : &pose.model.imported->gltf;
+        model.gltf = model.is_own ? &gltf : pose.model.gltf;
         done = usda_model_write(&model, error);
         gltf_free(&gltf);
     }

@@ -24,6 +24,8 @@ struct coordinate {
     double pca1, pca2; ///< shares that the first and the first two real principal components explain, 0 … 1
     float (*re)[3];    ///< Re Ñ, metres a unit of the spline, per vertex
     float (*im)[3];    ///< Im Ñ; a vertex with a positive argument of Ñ leads
+    int target[2];     ///< of its file's mesh: NAME.re and NAME.im
+    double scale;      ///< times which those have it
 };
 
 /// All zero is the empty character. Metres, y up, triangles counter-clockwise seen from outside.
@@ -37,6 +39,9 @@ struct character {
         looks; ///< materials, texture coordinates; of a file with several materials, which triangles have which
     struct coordinate *coordinates;
     int coordinate_count;
+    int node;        ///< the first that shows its mesh in its file; −1: none
+    bool is_moved;   ///< `moved` does something
+    float moved[16]; ///< from the mesh to the model at rest: the node's matrix, or its skin's first joint's
 };
 
 /// A character at rest: takes the surface over and leaves it empty, with normals from its triangles and `coordinates` coordinates with zero
@@ -48,8 +53,12 @@ void character_find_normals(struct character *character);
 
 /// Reads a .glb or .gltf: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
 /// pairs of morph targets called NAME.re and NAME.im; without our extras their numbers are 0. Normals are computed where
-/// there are none. The first node that shows the mesh places it. Errors name the file, the place in it, what was expected and what was found.
+/// there are none. The first node that shows the mesh, or its skin, places it. Errors name the file, the place in it, what was expected and
+/// what was found.
 bool character_read(const char *path, struct character *character, struct error *error);
+struct gltf;
+/// The same of a file that has been read.
+bool character_from_gltf(const struct gltf *gltf, struct character *character, struct error *error);
 
 /// Writes a .glb, whole or not at all. Without `turn_normals` targets move only vertices and the file is two fifths smaller; on reading,
 /// figure_derive() replaces them.

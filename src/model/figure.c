@@ -3,7 +3,6 @@
 #include "model/figure.h"
 #include "base/need.h"
 #include "maths/maths.h"
-#include "model/gltf.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
@@ -216,26 +215,156 @@ void morph_vertex(const struct figure *figure, const struct morph *morph, int ve
     glm_vec3_copy(n.raw, normal);
 }
 
-void morph_places(const struct figure *figure, const struct morph *morph, const float position[3], float (*places)[3])
+struct morph figure_morph(const struct figure *figure, const float *weights)
 {
-    for (int i = 0; i < figure->character.vertex_count; i++) {
-        morph_vertex(figure, morph, i, places[i], NULL);
-        places[i][0] += position[0];
-        places[i][1] += position[1] - figure->lo[1];
-        places[i][2] += position[2];
+    struct morph morph = {0};
+    for (int k = 0; k < figure->character.coordinate_count && morph.count < MORPH_MAX_COORDINATES; k++) {
+        const struct coordinate *c = &figure->character.coordinates[k];
+        const float re = weights[c->target[0]], im = weights[c->target[1]], scale = (float)c->scale;
+        if (re == 0 && im == 0) continue;
+        morph.coordinate[morph.count] = k;
+        morph.weight[morph.count][0] = scale * re;
+        morph.weight[morph.count++][1] = scale * im;
+    }
+    return morph;
+}
+
+// --- in a pose of its file
+
+/// What carries all vertices of a soft mesh, and where to look for what carries one.
+struct carried {
+    const struct gltf_mesh *mesh;
+    const float *weights;
+    const float (*joints)[16]; ///< NULL: it has no skin
+    mat4s back;                ///< from where a vertex is at rest to the mesh
+    mat4s all;                 ///< of vertices without joints
+    bool turns;                ///< it is not always 1
+    bool has_way;              ///< targets that are no coordinate's move vertices
+};
+
+/// Whether a target of the mesh moves vertices but is no coordinate's.
+static bool is_other(const struct carried *carried, const struct character *c, int target)
+{
+    bool other = carried->weights[target] != 0;
+    for (int k = 0; k < c->coordinate_count && other; k++)
+        other = target != c->coordinates[k].target[0] && target != c->coordinates[k].target[1];
+    return other;
+}
+
+static struct carried carried_of(const struct model_pose *model)
+{
+    const struct character *c = &model->figure->character;
+    struct carried carried = {.back = glms_mat4_identity(), .all = glms_mat4_identity()};
+    const struct gltf_node *node = &model->gltf->nodes[c->node];
+    carried.mesh = &model->gltf->meshes[node->mesh];
+    carried.weights = model->pose->weights + node->first_weight;
+    if (node->skin >= 0) carried.joints = model->pose->joints + model->gltf->skins[node->skin].first_joint;
+    const float *world = model->pose->world[c->node];
+    if (c->is_moved) carried.back = glms_mat4_inv(mat4_from(c->moved));
+    carried.turns = memcmp(world, c->moved, sizeof c->moved) != 0;
+    if (carried.turns) carried.all = glms_mat4_mul(mat4_from(world), carried.back);
+    for (int t = 0; t < carried.mesh->target_count; t++) carried.has_way |= is_other(&carried, c, t);
+    return carried;
+}
+
+static void carry(const struct carried *carried, const struct model_pose *model, const struct gltf_part *part, int at,
+                  mat4s *matrix, vec3s *way)
+{
+    const struct character *c = &model->figure->character;
+    *way = glms_vec3_zero();
+    for (int t = 0; carried->has_way && t < carried->mesh->target_count; t++) {
+        const float(*position)[3] = (const float(*)[3])part->targets[t].position;
+        if (position && is_other(carried, c, t))
+            *way = glms_vec3_add(*way, glms_vec3_scale(vec3_from(position[at]), carried->weights[t]));
+    }
+    if (carried->has_way && c->is_moved) *way = glms_mat4_mulv3(mat4_from(c->moved), *way, 0.0f);
+    *matrix = carried->all;
+    if (!carried->joints || !part->joints) return;
+    float blended[16];
+    gltf_blend(carried->joints, part->joints[at], part->weights[at], blended);
+    *matrix = c->is_moved ? glms_mat4_mul(mat4_from(blended), carried->back) : mat4_from(blended);
+}
+
+/// Goes on to the part of a vertex, from the one of an earlier vertex. `first` is the part's first vertex.
+static void find_part(const struct gltf_mesh *mesh, int vertex, int *part, int *first)
+{
+    while (mesh->parts[*part].shared || vertex - *first >= mesh->parts[*part].vertex_count) {
+        if (!mesh->parts[*part].shared) *first += mesh->parts[*part].vertex_count;
+        (*part)++;
     }
 }
 
-void morph_bounds(const struct figure *figure, const struct morph *morph, float lo[3], float hi[3])
+void figure_carry(const struct model_pose *model, int vertex, float matrix[16], float way[3])
 {
-    glm_vec3_fill(lo, INFINITY);
-    glm_vec3_fill(hi, -INFINITY);
-    for (int i = 0; i < figure->character.vertex_count; i++) {
-        float p[3];
-        morph_vertex(figure, morph, i, p, NULL);
-        glm_vec3_minv(p, lo, lo);
-        glm_vec3_maxv(p, hi, hi);
+    const struct carried carried = carried_of(model);
+    mat4s m;
+    vec3s by;
+    int part = 0, first = 0;
+    find_part(carried.mesh, vertex, &part, &first);
+    carry(&carried, model, &carried.mesh->parts[part], vertex - first, &m, &by);
+    memcpy(matrix, &m, sizeof m);
+    memcpy(way, by.raw, sizeof by.raw);
+}
+
+/// Places a vertex in the world. `part` and `first` are 0 before the first vertex, then for this function.
+static void place_vertex(const struct carried *carried, const struct model_pose *model, int vertex, int *part,
+                         int *first, float place[3], float normal[3])
+{
+    mat4s m = carried->all;
+    morph_vertex(model->figure, &model->morph, vertex, place, normal);
+    if (carried->joints || carried->has_way) {
+        vec3s way;
+        find_part(carried->mesh, vertex, part, first);
+        carry(carried, model, &carried->mesh->parts[*part], vertex - *first, &m, &way);
+        glm_vec3_add(place, way.raw, place);
     }
+    if (carried->joints || carried->turns) glm_mat4_mulv3(m.raw, place, 1.0f, place);
+    if (normal && (carried->joints || carried->turns)) gltf_turn_normal((const float *)m.raw, normal);
+    m = mat4_from(model->root);
+    glm_mat4_mulv3(m.raw, place, 1.0f, place);
+    if (normal) gltf_turn_normal((const float *)m.raw, normal);
+}
+
+void figure_vertices(const struct model_pose *model, float (*places)[3], float (*normals)[3], float lo[3],
+                     float hi[3])
+{
+    const struct carried carried = carried_of(model);
+    int part = 0, first = 0;
+    for (int v = 0; v < model->figure->character.vertex_count; v++) {
+        float at[3], *place = places ? places[v] : at;
+        place_vertex(&carried, model, v, &part, &first, place, normals ? normals[v] : NULL);
+        for (int k = 0; lo && k < 3; k++) {
+            lo[k] = fminf(lo[k], place[k]);
+            hi[k] = fmaxf(hi[k], place[k]);
+        }
+    }
+}
+
+void figure_vertex(const struct model_pose *model, int vertex, float place[3])
+{
+    const struct carried carried = carried_of(model);
+    int part = 0, first = 0;
+    place_vertex(&carried, model, vertex, &part, &first, place, NULL);
+}
+
+int figure_lowest(const struct model_pose *model, float *height)
+{
+    const struct carried carried = carried_of(model);
+    const struct character *c = &model->figure->character;
+    int part = 0, first = 0, lowest = -1;
+    for (int v = 0; v < c->vertex_count; v++) {
+        bool moves = false;
+        float place[3];
+        for (int n = 0; n < c->coordinate_count && !moves; n++)
+            moves = glms_vec3_norm2(vec3_from(c->coordinates[n].re[v])) > 0 ||
+                    glms_vec3_norm2(vec3_from(c->coordinates[n].im[v])) > 0;
+        if (!moves) continue;
+        place_vertex(&carried, model, v, &part, &first, place, NULL);
+        if (place[1] >= *height) continue;
+        *height = place[1];
+        lowest = v;
+    }
+    return lowest;
 }
 
 // --- a figure that is painted

@@ -8,6 +8,7 @@
 
 #include "model/adjacency.h"
 #include "model/character.h"
+#include "model/gltf.h"
 
 enum {
     FIGURE_SOLES = 2,
@@ -69,7 +70,7 @@ int figure_find(const struct figure *figure, const char *name);
 // A soft character in motion: the sum of its complex normal coordinates, each turned and scaled by a weight,
 // D(j) = Re(Σ_k z_k Ñ_{k,j}).
 
-enum { MORPH_MAX_COORDINATES = 4 };
+enum { MORPH_MAX_COORDINATES = 16 }; ///< that move at once
 
 /// The weights of a figure's coordinates at one time.
 struct morph {
@@ -78,16 +79,37 @@ struct morph {
     float weight[MORPH_MAX_COORDINATES][2]; ///< z: real and imaginary part
 };
 
+/// What the weights of its mesh's morph targets say; coordinates at 0 are left out.
+struct morph figure_morph(const struct figure *figure, const float *weights);
+
 /// The position and unit normal of a vertex, as the stage's vertex shader computes them. `normal` may be NULL.
 void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
                   float normal[3]);
 
-/// Positions of all vertices in the world: the posed figure standing on the ground at `position`, as the stage draws it.
-void morph_places(const struct figure *figure, const struct morph *morph, const float position[3],
-                  float (*places)[3]);
+/// A model where it stands, in a pose of its file.
+struct model_pose {
+    const struct gltf *gltf;
+    const struct gltf_pose *pose; ///< memory that other poses use, too: see where it comes from
+    float root[16];               ///< its space → world
+    float ground;                 ///< height of the ground under it, metres
+    const struct figure *figure;  ///< its soft mesh, or NULL
+    struct morph morph;           ///< of that
+};
 
-/// The box around the posed figure, relative to the rig's position.
-void morph_bounds(const struct figure *figure, const struct morph *morph, float lo[3], float hi[3]);
+/// What carries a vertex of the soft mesh that has been moved by its coordinates into the pose: the matrix Σ wⱼ Jⱼ of its joints, or its node's,
+/// in the model's space, after a way that other morph targets of the clip add. Both are for places at rest.
+void figure_carry(const struct model_pose *model, int vertex, float matrix[16], float way[3]);
+
+/// Places and unit normals of all its vertices in the world, v′ = Σ wⱼ Jⱼ (v + D), and a box that is widened to hold them. Any may be NULL.
+/// Allocates nothing.
+void figure_vertices(const struct model_pose *model, float (*places)[3], float (*normals)[3], float lo[3],
+                     float hi[3]);
+
+/// The place of one.
+void figure_vertex(const struct model_pose *model, int vertex, float place[3]);
+
+/// The lowest of those that coordinates move, below a height that becomes its own; −1: none is.
+int figure_lowest(const struct model_pose *model, float *height);
 
 // A figure whose coordinates are turned and scaled vertex by vertex: Ñ' = Ñ e^{a + jψ}.
 // Everything else is shared with the plain figure.

@@ -1,4 +1,4 @@
-/// An imported character: the parts of a glTF 2.0 file that wiggly shows, and its poses.
+/// A character: the parts of a glTF 2.0 file that wiggly shows, and its poses.
 ///
 /// Units and axes are the file's: metres, y up, right-handed. Matrices are column-major. Nothing here is changed after reading.
 #ifndef MODEL_GLTF_H
@@ -222,6 +222,9 @@ void gltf_channel_at(const struct gltf_channel *channel, double time, float *out
 /// World and joint matrices from places. Allocates nothing.
 void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);
 
+/// The matrix Σ wⱼ Jⱼ of a vertex.
+void gltf_blend(const float (*joints)[16], const uint16_t *joint, const float *weights, float matrix[16]);
+
 /// Turns a normal by a matrix, whatever its scale; a mirror turns it round, with the triangles. Its length is 1 then.
 void gltf_turn_normal(const float matrix[16], float normal[3]);
 
@@ -253,8 +256,9 @@ struct gltf_bounds {
 /// False if memory is short. The memory is the character's.
 bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds);
 
-/// The box in the model's space; it may be a little too large, never too small for morph weights from −1 to 1. Allocates nothing.
-void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose,
+/// The box of all nodes but one (−1: all) in the model's space; it may be a little too large, never too small for morph weights from −1 to 1.
+/// Without any it is upside down. Allocates nothing.
+void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose, int but,
                     float lo[3], float hi[3]);
 
 #endif

@@ -213,20 +213,23 @@ static void take_target(const struct gltf_mesh *mesh, int target, double sign, d
 
 // --- its place
 
-/// Moves it where the first node that shows it is: a mirroring node reverses the triangles and their normals. Without a node it stays exactly as
-/// it is. False if memory is short.
+/// Moves it where the first node that shows it is, or its skin: a mirroring one reverses the triangles and their normals. Without a node it stays
+/// exactly as it is. False if memory is short.
 static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh, struct character *c)
 {
     struct gltf_pose rest;
-    bool moved = false;
     int node = 0;
+    c->node = -1;
     while (node < gltf->node_count && gltf->nodes[node].mesh != mesh - gltf->meshes) node++;
     if (node == gltf->node_count) return true;
     if (!gltf_pose_create(gltf, &rest)) return false;
-    for (int n = 0; n < 16; n++) moved = moved || rest.world[node][n] != (n % 5 == 0);
-    mat4s m = mat4_from(rest.world[node]);
+    const int skin = gltf->nodes[node].skin;
+    c->node = node;
+    memcpy(c->moved, skin < 0 ? rest.world[node] : rest.joints[gltf->skins[skin].first_joint], sizeof c->moved);
     gltf_pose_free(&rest);
-    if (!moved) return true;
+    for (int n = 0; n < 16; n++) c->is_moved = c->is_moved || c->moved[n] != (n % 5 == 0);
+    mat4s m = mat4_from(c->moved);
+    if (!c->is_moved) return true;
     for (int i = 0; i < c->vertex_count; i++) {
         glm_mat4_mulv3(m.raw, c->position[i], 1, c->position[i]);
         gltf_turn_normal((const float *)m.raw, c->normal[i]);
@@ -247,28 +250,33 @@ static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh,
 bool character_read(const char *path, struct character *c, struct error *error)
 {
     struct gltf gltf;
+    *c = (struct character){0};
+    if (!gltf_read_stored(path, &gltf, error)) return false;
+    const bool made = character_from_gltf(&gltf, c, error);
+    gltf_free(&gltf);
+    return made;
+}
+
+bool character_from_gltf(const struct gltf *gltf, struct character *c, struct error *error)
+{
     size_t vertices = 0, coordinates = 0, length, i;
     int im, next = 0;
     *c = (struct character){0};
-    if (!gltf_read_stored(path, &gltf, error)) return false;
-    const size_t most = gltf.room / (2 * sizeof *c->position);
-    const struct gltf_mesh *mesh = choose_mesh(&gltf);
+    const size_t most = gltf->room / (2 * sizeof *c->position);
+    const struct gltf_mesh *mesh = choose_mesh(gltf);
     for (int p = 0; mesh && p < mesh->part_count; p++)
         vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
     for (int t = 0; mesh && t < mesh->target_count; t++) coordinates += is_coordinate(mesh, t, &length, &im);
-    bool made = mesh || fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got %s", gltf.path,
-                             gltf.not_shown ? gltf.not_shown : "none");
+    bool made = mesh || fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got %s", gltf->path,
+                             gltf->not_shown ? gltf->not_shown : "none");
     made = made &&
            (vertices * coordinates <= most ||
             fail(error, ERROR_INPUT, "%s: expected at most %zu vertices in a file of this size, got %zu times %zu",
-                 gltf.path, most, coordinates, vertices));
-    if (!made) {
-        gltf_free(&gltf);
-        return false;
-    }
+                 gltf->path, most, coordinates, vertices));
+    if (!made) return false;
 
     struct surface surface = {0};
-    made = make_surface(&gltf, mesh, &surface) && character_create(c, &surface, (int)coordinates);
+    made = make_surface(gltf, mesh, &surface) && character_create(c, &surface, (int)coordinates);
     surface_free(&surface);
     for (int p = 0; made && p < mesh->part_count; p++) {
         const struct gltf_part *part = &mesh->parts[p];
@@ -289,7 +297,9 @@ bool character_read(const char *path, struct character *c, struct error *error)
             const char *called = json_string_value(json_object_get(entry, "name"));
             if (!known && called && strcmp(called, coordinate->name) == 0) known = entry;
         }
-        const double scale = real_of(known, "scale") > 0 ? real_of(known, "scale") : 1;
+        const double scale = coordinate->scale = real_of(known, "scale") > 0 ? real_of(known, "scale") : 1;
+        coordinate->target[0] = t;
+        coordinate->target[1] = im;
         coordinate->frequency = real_of(known, "frequency");
         coordinate->damping = real_of(known, "damping");
         coordinate->explained = real_of(known, "explained");
@@ -299,8 +309,7 @@ bool character_read(const char *path, struct character *c, struct error *error)
         take_target(mesh, im, -1, scale, coordinate->im);
         coordinate++;
     }
-    made = (made && place_as_node(&gltf, mesh, c)) || fail_no_memory(error, gltf.path);
-    gltf_free(&gltf);
+    made = (made && place_as_node(gltf, mesh, c)) || fail_no_memory(error, gltf->path);
     if (!made) character_free(c);
     return made;
 }

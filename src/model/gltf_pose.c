@@ -76,7 +76,7 @@ static void morph(const struct gltf_part *part, int target_count, const float *w
     }
 }
 
-static void blend(const float (*joints)[16], const uint16_t *joint, const float *weights, float m[16])
+void gltf_blend(const float (*joints)[16], const uint16_t *joint, const float *weights, float m[16])
 {
     memset(m, 0, 16 * sizeof *m);
     for (int k = 0; k < GLTF_INFLUENCES; k++) {
@@ -127,7 +127,7 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
         for (int i = 0; i < part->vertex_count; i++) {
             const vec3s at = vec3_from(positions[i]);
             const float *v = at.raw;
-            if (skinned) blend(joints, part->joints[i], part->weights[i], m);
+            if (skinned) gltf_blend(joints, part->joints[i], part->weights[i], m);
             for (int k = 0; k < 3; k++) positions[i][k] = m[k] * v[0] + m[4 + k] * v[1] + m[8 + k] * v[2] + m[12 + k];
             if (!normals) continue;
             if (skinned && part->along) stretch(joints, part->joints[i], part->along[i], v, m);
@@ -312,7 +312,7 @@ bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds)
     return true;
 }
 
-void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose,
+void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose, int but,
                     float lo[3], float hi[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -322,6 +322,7 @@ void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, c
     for (int f = 0; f < bounds->count; f++) {
         const struct gltf_box *box = &bounds->boxes[f];
         const struct gltf_node *node = &gltf->nodes[box->node];
+        if (box->node == but) continue;
         const float *m =
             box->joint < 0 ? pose->world[box->node] : pose->joints[gltf->skins[node->skin].first_joint + box->joint];
 
@@ -353,7 +354,6 @@ void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, c
             hi[k] = fmaxf(hi[k], middle + reach);
         }
     }
-    for (int k = 0; k < 3 && !(lo[0] <= hi[0]); k++) lo[k] = hi[k] = 0.0f;
 }
 
 // --- loops

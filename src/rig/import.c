@@ -3,7 +3,6 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "maths/maths.h"
-#include "model/character.h"
 #include "rig/strand.h"
 #include "scene/edit.h"
 #include "scene/load.h"
@@ -102,48 +101,50 @@ static bool fit_to_clip(struct document *document, int rig, const struct gltf_cl
     return true;
 }
 
+/// A new spline for a coordinate, with its frequency and damping by numbers that one would write, and a knot so that it swings at once.
+static bool add_swing(struct document *document, const struct coordinate *coordinate, struct error *error)
+{
+    const struct knot start = {.frame = document->first_frame, .value = 0.5};
+    const struct param frequency = param_number(round(coordinate->frequency * 100) / 100),
+                       damping = param_number(round(coordinate->damping * 1000) / 1000);
+    const int spline = document->spline_count;
+    return edit_spline_add(document, -1, NULL, &start, error) &&
+           (!(frequency.value > 0) || edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error)) &&
+           (!(damping.value > 0) || edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error));
+}
+
 bool import_add(struct document *document, const char *path, int spline, struct error *error)
 {
     char file[PATH_LIMIT];
-    struct character character = {0};
-    struct gltf gltf = {0};
+    struct imported imported;
     if (!path_rebase(path, NULL, document->folder, file)) snprintf(file, sizeof file, "%s", path);
-    if (!gltf_read(path, &gltf, error)) return false;
-    bool added;
-    if (gltf_is_soft(&gltf)) {
-        added = character_read(path, &character, error);
-        const struct coordinate *first = added ? &character.coordinates[0] : NULL;
-        if (added && spline < 0) { // a new spline drives it, with the coordinate's frequency and damping
-            const struct knot start = {.frame = document->first_frame, .value = 0.5}; // so that it swings at once
-            const struct param frequency = param_number(round(first->frequency * 100) / 100),
-                               damping = param_number(round(first->damping * 1000) / 1000);
-            spline = document->spline_count;
-            added = edit_spline_add(document, -1, NULL, &start, error) &&
-                    (!(frequency.value > 0) ||
-                     edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error)) &&
-                    (!(damping.value > 0) || edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error));
-        }
-        struct drive drive = {
-            .name = added ? first->name : NULL, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-        const struct rig rig = {.kind = RIG_CHARACTER,
-                                .character = {.model = file, .phases = -1, .drives = &drive, .drive_count = 1}};
-        added = added && edit_rig_add(document, &rig, error);
-    } else {
-        const struct gltf_clip *clip = gltf.clip_count > 0 ? &gltf.clips[0] : NULL;
-        struct rig rig = {.kind = RIG_MODEL, .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = 1}};
+    if (!imported_read(&imported, path, error)) return false;
+    const struct gltf *gltf = &imported.gltf;
+    const struct coordinate *soft =
+        imported.figure.character.coordinate_count > 0 ? imported.figure.character.coordinates : NULL;
+    const struct gltf_clip *clip = gltf->clip_count > 0 ? &gltf->clips[0] : NULL;
+    struct drive drive = {.name = soft ? soft->name : NULL, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+    struct rig rig = {.kind = RIG_MODEL,
+                      .model = {.model = file,
+                                .clip = clip ? clip->name : NULL,
+                                .scale = 1,
+                                .phases = -1,
+                                .drives = soft ? &drive : NULL,
+                                .drive_count = soft ? 1 : 0}};
 
-        // A tiny or huge character gets the usual size, by a scale of one digit.
-        double size = 0;
-        for (int k = 0; k < 3; k++) size = fmax(size, (double)(gltf.hi[k] - gltf.lo[k]));
-        if (size > 0 && !(size >= SMALLEST && size <= LARGEST)) {
-            const double scale = USUAL / size, digit = maths_power_of_ten(maths_decade(scale));
-            rig.model.scale = round(scale / digit) * digit;
-        }
-        const bool is_empty = document->spline_count == 0 && document->rig_count == 0;
-        added = (!is_empty || set_range(document, &rig.model, clip, error)) && edit_rig_add(document, &rig, error);
+    // A tiny or huge character gets the usual size, by a scale of one digit.
+    double size = 0;
+    for (int k = 0; k < 3; k++) size = fmax(size, (double)(gltf->hi[k] - gltf->lo[k]));
+    if (size > 0 && !(size >= SMALLEST && size <= LARGEST)) {
+        const double scale = USUAL / size, digit = maths_power_of_ten(maths_decade(scale));
+        rig.model.scale = round(scale / digit) * digit;
     }
-    character_free(&character);
-    gltf_free(&gltf);
+    const bool is_empty = document->spline_count == 0 && document->rig_count == 0;
+    bool added = !is_empty || (soft && !clip) || set_range(document, &rig.model, clip, error);
+    drive.spline = spline >= 0 ? spline : document->spline_count;
+    added =
+        added && (!soft || spline >= 0 || add_swing(document, soft, error)) && edit_rig_add(document, &rig, error);
+    imported_free(&imported);
     return added;
 }
 

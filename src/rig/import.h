@@ -12,8 +12,8 @@ bool import_suits(const char *path);
 /// its last, and the frame rate of the clip's keys. NULL and an error on failure.
 struct document *import_scene(const char *path, struct error *error);
 
-/// Adds the character in a file to a document: a soft one, whose first coordinate `spline` drives (-1: a new one), or an imported
-/// one, which plays its first clip. False with a sentence.
+/// Adds the character in a file to a document. It plays its first clip; `spline` (-1: a new one) drives its first coordinate, if it has any.
+/// False with a sentence.
 bool import_add(struct document *document, const char *path, int spline, struct error *error);
 
 /// Makes a model rig play a clip of its file, NULL: none. A scene without splines, or with some that follow the clip and no knots or pins,

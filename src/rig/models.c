@@ -1,4 +1,4 @@
-/// Reads the models of a document's characters and caches them by path; prepares imported characters, and finds their bones.
+/// Reads the models of a document's characters and caches them by path; prepares them, and finds their bones.
 #include "rig/models.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-// --- imported characters
+// --- characters
 
 static const float SHORT_TIP = 0.1f;     ///< share of the character's height: length of a lone joint's bone
 static const float BESIDE = 0.1f;        ///< share of its length: a tail that ends nearer to the middle shows no back
@@ -155,15 +155,20 @@ static bool imported_complete(struct imported *imported)
 
 bool imported_read(struct imported *imported, const char *path, struct error *error)
 {
+    struct character soft = {0};
     *imported = (struct imported){0};
     if (!gltf_read(path, &imported->gltf, error)) return false;
-    if (imported_complete(imported)) return true;
-    imported_free(imported);
-    return fail_no_memory(error, path);
+    bool good = !gltf_is_soft(&imported->gltf) || character_from_gltf(&imported->gltf, &soft, error);
+    if (good && !(figure_has_room(&soft) && imported_complete(imported))) good = fail_no_memory(error, path);
+    if (good && soft.vertex_count > 0 && soft.node >= 0) figure_create(&imported->figure, &soft);
+    character_free(&soft);
+    if (!good) imported_free(imported);
+    return good;
 }
 
 void imported_free(struct imported *imported)
 {
+    figure_free(&imported->figure);
     gltf_pose_free(&imported->rest);
     gltf_free(&imported->gltf);
     *imported = (struct imported){0};
@@ -268,48 +273,33 @@ bool chain_find_twin(const struct gltf *gltf, const char *from, const char *to, 
 
 // --- files
 
-enum model_kind { MODEL_FIGURE, MODEL_IMPORTED };
-
 /// A file that was read, and its state at that time.
 struct model_file {
     char *path; ///< absolute
     struct timespec changed;
     off_t size;
-    enum model_kind kind;
-    union {
-        struct figure figure;
-        struct imported imported;
-    };
+    struct imported imported;
 };
 
 static void file_destroy(struct model_file *file)
 {
     if (!file) return;
-    if (file->kind == MODEL_FIGURE) {
-        figure_free(&file->figure);
-    } else {
-        imported_free(&file->imported);
-    }
+    imported_free(&file->imported);
     free(file->path);
     free(file);
 }
 
 // --- the models of a document
 
-/// The model of one character.
-struct character_model {
-    const struct figure *plain; ///< owned by one of the files; NULL: it could not be read
-    struct painted *painted;    ///< NULL until it is first painted
-    uint64_t version;           ///< of its paint, 0: none
-};
-
-/// An imported character of a rig, or the fox of a tail, and its poses.
+/// The character of a rig, or the fox of a tail, and its poses.
 struct placed_model {
     char *path;        ///< as in the rig; NULL: a tail
     int level, joints; ///< of a fox
     struct imported *fox;
     const struct imported *imported; ///< NULL: it could not be read
     struct gltf_pose pose[POSE_MEMORIES];
+    struct painted *painted; ///< NULL until it is first painted
+    uint64_t version;        ///< of its paint, 0: none
 };
 
 struct models {
@@ -319,8 +309,6 @@ struct models {
     int placed_count;
     struct placed_model *tails; ///< in the order of the document
     int tail_count;
-    struct character_model *characters; ///< in the order of the document
-    int character_count;
     uint64_t version;
     struct background *background;
 };
@@ -334,15 +322,10 @@ struct models *models_create(void)
 
 struct background *models_background(const struct models *models) { return models ? models->background : NULL; }
 
-static void drop_characters(struct models *models)
-{
-    for (int i = 0; i < models->character_count; i++) painted_destroy(models->characters[i].painted);
-    models->character_count = 0;
-}
-
 static void free_placed(struct placed_model *placed)
 {
     for (int k = 0; k < POSE_MEMORIES; k++) gltf_pose_free(&placed->pose[k]);
+    painted_destroy(placed->painted);
     if (placed->fox) imported_free(placed->fox);
     free(placed->fox);
     free(placed->path);
@@ -358,14 +341,12 @@ static void drop_placed(struct models *models)
 void models_destroy(struct models *models)
 {
     if (!models) return;
-    drop_characters(models);
     drop_placed(models);
     for (int i = 0; i < models->tail_count; i++) free_placed(&models->tails[i]);
     free(models->placed);
     free(models->tails);
     for (int i = 0; i < models->file_count; i++) file_destroy(models->files[i]);
     free(models->files);
-    free(models->characters);
     background_destroy(models->background);
     free(models);
 }
@@ -378,7 +359,7 @@ bool models_paint_fits(const struct paint *paint, const struct figure *figure)
 
 /// The model in a file named by the document, read again only if the file has changed; NULL and an error if it cannot be read.
 static const struct model_file *read_model(struct models *models, const struct document *document, const char *name,
-                                           enum model_kind kind, struct error *error)
+                                           struct error *error)
 {
     char path[PATH_LIMIT];
     if (!path_resolve(document->folder, name, path)) {
@@ -389,27 +370,18 @@ static const struct model_file *read_model(struct models *models, const struct d
     const bool is_there = stat(path, &status) == 0;
     struct model_file **old = NULL;
     for (int i = 0; i < models->file_count && !old; i++) {
-        if (models->files[i]->kind == kind && strcmp(models->files[i]->path, path) == 0) old = &models->files[i];
+        if (strcmp(models->files[i]->path, path) == 0) old = &models->files[i];
     }
     if (old && is_there && (*old)->size == status.st_size && (*old)->changed.tv_sec == status.st_mtim.tv_sec &&
         (*old)->changed.tv_nsec == status.st_mtim.tv_nsec)
         return *old;
 
     struct model_file *file = need_zeroed(1, sizeof *file);
-    struct character character = {0};
     file->path = need_text(path);
-    file->kind = kind;
-    bool good =
-        kind == MODEL_FIGURE ? character_read(path, &character, error) : imported_read(&file->imported, path, error);
-    if (good && kind == MODEL_FIGURE && !figure_has_room(&character)) {
-        character_free(&character);
-        good = fail_no_memory(error, path);
-    }
-    if (!good) {
+    if (!imported_read(&file->imported, path, error)) {
         file_destroy(file);
         return NULL;
     }
-    if (kind == MODEL_FIGURE) figure_create(&file->figure, &character);
     file->changed = status.st_mtim;
     file->size = status.st_size;
 
@@ -433,28 +405,28 @@ static bool check_pins(const struct rig *rig, int points, struct error *error)
     return true;
 }
 
-/// The model of a rig; NULL and an error if it cannot be read. `error` is also set if it does not suit the rig.
-static const struct figure *find_figure(struct models *models, const struct document *document, const struct rig *of,
-                                        struct error *error)
+/// Whether a file has what a model rig names in it.
+static bool check_model(const struct rig *of, const struct imported *imported, struct error *error)
 {
-    const struct character_rig *rig = &of->character;
-    const struct model_file *file = read_model(models, document, rig->model, MODEL_FIGURE, error);
-    const struct figure *figure = file ? &file->figure : NULL;
-    if (!figure) return NULL;
-    const struct character *c = &figure->character;
+    const struct model_rig *rig = &of->model;
+    const struct gltf *gltf = &imported->gltf;
+    const struct character *c = &imported->figure.character;
+    if (rig->clip && gltf_find_clip(gltf, rig->clip) < 0)
+        return fail(error, ERROR_INPUT, "%s: expected a clip called \"%s\", got %s%s", rig->model, rig->clip,
+                    gltf->clip_count > 0 ? "others, such as " : "none",
+                    gltf->clip_count > 0 ? gltf->clips[0].name : "");
     for (int k = 0; k < rig->drive_count; k++) {
-        if (figure_find(figure, rig->drives[k].name) >= 0) continue;
-        fail(error, ERROR_INPUT, "%s: expected a coordinate called \"%s\", got %s%s", rig->model, rig->drives[k].name,
-             c->coordinate_count > 0 ? "others, such as " : "none",
-             c->coordinate_count > 0 ? c->coordinates[0].name : "");
-        return figure;
+        if (figure_find(&imported->figure, rig->drives[k].name) >= 0) continue;
+        return fail(error, ERROR_INPUT, "%s: expected a coordinate called \"%s\", got %s%s", rig->model,
+                    rig->drives[k].name, c->coordinate_count > 0 ? "others, such as " : "none",
+                    c->coordinate_count > 0 ? c->coordinates[0].name : "");
     }
     const struct paint *paint = rig->painted;
-    if (check_pins(of, c->vertex_count, error) && paint && !models_paint_fits(paint, figure))
-        fail(error, ERROR_INPUT, "%s: expected paint for the %d coordinates of %d vertices of %s, got %d of %d",
-             rig->paint_file ? rig->paint_file : "paint", c->coordinate_count, c->vertex_count, rig->model,
-             paint->coordinates, paint->vertices);
-    return figure;
+    return check_pins(of, c->vertex_count, error) &&
+           (!paint || models_paint_fits(paint, &imported->figure) ||
+            fail(error, ERROR_INPUT, "%s: expected paint for the %d coordinates of %d vertices of %s, got %d of %d",
+                 rig->paint_file ? rig->paint_file : "paint", c->coordinate_count, c->vertex_count, rig->model,
+                 paint->coordinates, paint->vertices));
 }
 
 /// Keeps the first of several errors.
@@ -476,18 +448,6 @@ bool models_update(struct models *models, const struct document *document, struc
     struct error first = {0};
     models->version++;
 
-    drop_characters(models);
-    const int soft = document_count_rigs(document, RIG_CHARACTER);
-    models->characters = need_more(models->characters, (size_t)soft + 1, sizeof *models->characters);
-    for (int i = 0, rig = -1; i < soft; i++) {
-        struct error trouble = {0};
-        rig = document_next_rig(document, RIG_CHARACTER, rig);
-        models->characters[i] =
-            (struct character_model){.plain = find_figure(models, document, document->rigs[rig], &trouble)};
-        keep_first(&first, &trouble);
-    }
-    models->character_count = soft;
-
     drop_placed(models);
     const int count = document_count_rigs(document, RIG_MODEL);
     models->placed = need_more(models->placed, (size_t)count + 1, sizeof *models->placed);
@@ -497,13 +457,11 @@ bool models_update(struct models *models, const struct document *document, struc
         const struct model_rig *model = &document->rigs[rig]->model;
         struct placed_model *placed = &models->placed[models->placed_count++];
         *placed = (struct placed_model){.path = need_text(model->model)};
-        const struct model_file *file = read_model(models, document, model->model, MODEL_IMPORTED, &trouble);
+        const struct model_file *file = read_model(models, document, model->model, &trouble);
         if (file && !make_poses(placed, &file->imported)) {
             fail_no_memory(&trouble, model->model);
-        } else if (file && model->clip && gltf_find_clip(&file->imported.gltf, model->clip) < 0) {
-            const struct gltf *gltf = &file->imported.gltf;
-            fail(&trouble, ERROR_INPUT, "%s: expected a clip called \"%s\", got %s%s", model->model, model->clip,
-                 gltf->clip_count > 0 ? "others, such as " : "none", gltf->clip_count > 0 ? gltf->clips[0].name : "");
+        } else if (file) {
+            check_model(document->rigs[rig], &file->imported, &trouble);
         }
         keep_first(&first, &trouble);
     }
@@ -528,9 +486,7 @@ bool models_update(struct models *models, const struct document *document, struc
 
 bool models_suit(const struct models *models, const struct document *document)
 {
-    if (document_count_rigs(document, RIG_CHARACTER) != models->character_count ||
-        document_count_rigs(document, RIG_MODEL) != models->placed_count)
-        return false;
+    if (document_count_rigs(document, RIG_MODEL) != models->placed_count) return false;
     for (int i = 0, rig = -1; i < models->placed_count; i++) {
         const char *path = models->placed[i].path;
         rig = document_next_rig(document, RIG_MODEL, rig);
@@ -541,16 +497,17 @@ bool models_suit(const struct models *models, const struct document *document)
 
 void models_follow(struct models *models, const struct document *document)
 {
-    for (int i = 0, rig = -1; i < models->character_count; i++) {
-        rig = document_next_rig(document, RIG_CHARACTER, rig);
+    for (int i = 0, rig = -1; i < models->placed_count; i++) {
+        rig = document_next_rig(document, RIG_MODEL, rig);
         if (rig < 0) break;
-        const struct paint *paint = document->rigs[rig]->character.painted;
-        struct character_model *model = &models->characters[i];
-        if (paint && (!model->plain || !models_paint_fits(paint, model->plain))) paint = NULL;
-        if (model->version == (paint ? paint->version : 0)) continue;
-        if (!model->painted) model->painted = painted_create(model->plain);
-        painted_update(model->painted, paint ? (const float(*)[2])paint->values : NULL);
-        model->version = paint ? paint->version : 0;
+        const struct paint *paint = document->rigs[rig]->model.painted;
+        struct placed_model *placed = &models->placed[i];
+        const struct figure *plain = placed->imported ? &placed->imported->figure : NULL;
+        if (paint && (!plain || !models_paint_fits(paint, plain))) paint = NULL;
+        if (placed->version == (paint ? paint->version : 0)) continue;
+        if (!placed->painted) placed->painted = painted_create(plain);
+        painted_update(placed->painted, paint ? (const float(*)[2])paint->values : NULL);
+        placed->version = paint ? paint->version : 0;
     }
 
     // A fox is rebuilt if its tail's joints or the number of tails have changed.
@@ -572,22 +529,23 @@ void models_follow(struct models *models, const struct document *document)
     }
 }
 
-const struct figure *models_figure(const struct models *models, int character)
-{
-    if (!models || character >= models->character_count) return NULL;
-    const struct character_model *model = &models->characters[character];
-    return model->painted ? &model->painted->figure : model->plain;
-}
-
 uint64_t models_version(const struct models *models) { return models ? models->version : 0; }
 
 static struct placed_model *find_placed(const struct models *models, const struct document *document, int rig)
 {
-    const bool is_tail = rig >= 0 && document->rigs[rig]->kind == RIG_TAIL;
-    if (!models || rig < 0 || (!is_tail && document->rigs[rig]->kind != RIG_MODEL)) return NULL;
+    if (!models || rig < 0) return NULL;
+    const bool is_tail = document->rigs[rig]->kind == RIG_TAIL;
+    if (!is_tail && document->rigs[rig]->kind != RIG_MODEL) return NULL;
     const int number = document_rig_number(document, rig);
     if (number >= (is_tail ? models->tail_count : models->placed_count)) return NULL;
     return is_tail ? &models->tails[number] : &models->placed[number];
+}
+
+const struct figure *models_figure(const struct models *models, const struct document *document, int rig)
+{
+    const struct placed_model *placed = find_placed(models, document, rig);
+    if (!placed || !placed->imported || placed->imported->figure.character.vertex_count == 0) return NULL;
+    return placed->painted ? &placed->painted->figure : &placed->imported->figure;
 }
 
 const struct imported *models_imported(const struct models *models, const struct document *document, int rig)

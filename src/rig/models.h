@@ -1,5 +1,5 @@
-/// The models of a document's characters, soft and imported: read when a document is opened, and cached by path, so that another scene with the
-/// same models reads nothing. And how an imported one is prepared.
+/// The models of a document's characters: read when a document is opened, and cached by path, so that another scene with the same models reads
+/// nothing. And how one is prepared.
 #ifndef RIG_MODELS_H
 #define RIG_MODELS_H
 
@@ -8,7 +8,7 @@
 #include "rig/background.h"
 #include "scene/document.h"
 
-// --- imported characters
+// --- characters
 
 /// A drawn part of a bone. Its own part goes from the node to the child that it leads to, else to a tip. A bone beside that child, such as
 /// an ear on a head, also has the link from its parent.
@@ -27,13 +27,14 @@ struct skeleton {
     bool *leads;        ///< whether it or a node below it carries
 };
 
-/// An imported character prepared for posing: its file, its rest pose, bounding boxes, and its bones as you see and click them: a line from each
-/// joint to the next. Bones are the joints of skins; in a file without skins all nodes that have a parent.
+/// A character prepared for posing: its file, its rest pose, bounding boxes, and its bones as you see and click them: a line from each
+/// joint to the next. Bones are the joints of skins; in a file without skins all nodes that have a parent. A soft one also has a figure.
 struct imported {
     struct gltf gltf;
     struct gltf_pose rest;
     struct gltf_bounds bounds;
     struct skeleton skeleton;
+    struct figure figure; ///< without vertices: nothing in it is soft
 };
 
 /// Reads a .glb or .gltf. On error nothing is left to free.
@@ -96,8 +97,8 @@ void models_follow(struct models *models, const struct document *document);
 /// Whether paint suits a figure: it has as many coordinates and vertices.
 bool models_paint_fits(const struct paint *paint, const struct figure *figure);
 
-/// The figure of the document's i-th character, painted; NULL if it could not be read. `models` may be NULL.
-const struct figure *models_figure(const struct models *models, int character);
+/// The figure of a model rig, painted; NULL if it is not soft or could not be read. `models` may be NULL.
+const struct figure *models_figure(const struct models *models, const struct document *document, int rig);
 
 /// Changes whenever models_update() is called; 0 for none. `models` may be NULL.
 uint64_t models_version(const struct models *models);
@@ -108,7 +109,7 @@ const struct imported *models_imported(const struct models *models, const struct
 /// The picture or film behind the stage. `models` may be NULL; then so is this.
 struct background *models_background(const struct models *models);
 
-/// An imported character's poses: the shown one, one shown beside it, and any other.
+/// A character's poses: the shown one, one shown beside it, and any other.
 enum pose_memory { POSE_UNSEEN, POSE_SHOWN, POSE_BESIDE, POSE_MEMORIES };
 
 /// Memory for a pose. NULL if models_imported() is.

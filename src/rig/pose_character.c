@@ -1,34 +1,27 @@
-/// Soft characters: coordinates' weights from splines' values, the models' vertices as points for pins, and the lowest ones for floors.
+/// What is soft of a model: coordinates' weights from splines' values and the clip, vertices as points for pins, and the lowest ones for floors.
 #include "maths/maths.h"
 #include "rig/posing.h"
 #include "spline/wide.h"
 #include <math.h>
 
-_Static_assert((int)CHARACTER_MAX_DRIVES <= (int)MORPH_MAX_COORDINATES, "a drive moves a coordinate");
+_Static_assert((int)MODEL_MAX_DRIVES <= (int)MORPH_MAX_COORDINATES, "a drive moves a coordinate");
 
-void pose_character(const struct character_rig *rig, const struct figure *figure, const wiggly_value *values,
-                    enum look look, struct morph *morph)
+void pose_character(const struct model_rig *rig, const struct figure *figure, const wiggly_value *values,
+                    enum look look, float *weights)
 {
-    morph->count = 0;
     for (int k = 0; k < rig->drive_count; k++) {
         const struct drive *drive = &rig->drives[k];
         const wiggly_value *x = &values[k];
         const int coordinate = figure_find(figure, drive->name);
         if (coordinate < 0) continue;
+        const struct coordinate *c = &figure->character.coordinates[coordinate];
         const bool stiff = look == LOOK_STIFF;
         const double lag = stiff ? 0.0 : radians(drive->lag);
         const double re = x->y + x->re * maths_cos(lag) + x->im * maths_sin(lag);
         const double im = stiff ? 0.0 : x->im * maths_cos(lag) - x->re * maths_sin(lag);
-        morph->coordinate[morph->count] = coordinate;
-        morph->weight[morph->count][0] = (float)(drive->amplitude * re);
-        morph->weight[morph->count][1] = (float)(drive->amplitude * im);
-        morph->count++;
+        weights[c->target[0]] += (float)(drive->amplitude * re / c->scale);
+        weights[c->target[1]] += (float)(drive->amplitude * im / c->scale);
     }
-}
-
-static const struct figure *figure_of(const struct posing *posing, int rig)
-{
-    return models_figure(posing->models, document_rig_number(posing->document, rig));
 }
 
 /// A e^{−j·lag}
@@ -50,8 +43,7 @@ static void add_product(const struct coordinate *coordinate, int vertex, const d
 }
 
 /// How a spline moves a vertex: Σ A e^{−j·lag} Ñ over the coordinates that it drives.
-static void find_pull(const struct character_rig *rig, const struct figure *figure, int vertex, int spline,
-                      pin_pull c)
+static void find_pull(const struct model_rig *rig, const struct figure *figure, int vertex, int spline, pin_pull c)
 {
     for (int d = 0; d < rig->drive_count; d++) {
         const int coordinate = rig->drives[d].spline == spline ? figure_find(figure, rig->drives[d].name) : -1;
@@ -64,45 +56,80 @@ static void find_pull(const struct character_rig *rig, const struct figure *figu
 
 static const double SLACK = 1e-9; ///< of the size
 
-static bool character_find(const struct posing *posing, const struct pin_query *query, pin_pull *c,
-                           struct pin_point *point)
+static bool model_find(const struct posing *posing, const struct pin_query *query, pin_pull *c,
+                       struct pin_point *point)
 {
-    const struct character_rig *character = &posing->document->rigs[query->rig]->character;
-    const struct figure *figure = figure_of(posing, query->rig);
+    const struct document *document = posing->document;
+    const struct model_rig *rig = &document->rigs[query->rig]->model;
+    const double sample = document_sample(document, query->pin->frame) + query->later;
+    const double read = sample - document_delay(document, query->rig);
     const int vertex = query->pin->point;
-    wiggly_value values[RIG_MAX_INPUTS];
+    struct rig_pose posed;
+    const struct figure *figure = models_figure(posing->models, document, query->rig);
     if (!figure || vertex >= figure->character.vertex_count) return false;
-    const double sample = document_sample(posing->document, query->pin->frame) + query->later;
-    const double read = sample - document_delay(posing->document, query->rig);
-    posing_values(posing, query->rig, sample, NULL, values);
+    const struct gltf *gltf = &models_imported(posing->models, document, query->rig)->gltf;
+    const float *weights = posing_clip(posing, query->rig, sample, POSE_UNSEEN)->weights;
+    const struct morph clip = figure_morph(figure, weights + gltf->nodes[figure->character.node].first_weight);
+    if (!rig_pose(posing, query->rig, sample, NULL, &posed)) return false;
     *point = (struct pin_point){.is_linear = read == rint(read)}; // in x of that sample
+    for (int r = -1; (r = document_next_chain(document, query->rig, r)) >= 0;) {
+        for (int i = 0; i < query->count; i++)
+            point->is_linear &= !rig_is_moved(document->rigs[r], query->splines[i]);
+    }
+
+    // Moved by its coordinates, in double precision.
+    const struct coordinate *coordinates = figure->character.coordinates;
+    float matrix[16], way[3];
+    pin_pull shape = {{0}};
+    wiggly_value values[RIG_MAX_INPUTS];
+    figure_carry(&posed.model, vertex, matrix, way);
     for (int k = 0; k < 3; k++) {
-        point->size = maths_hypot(point->size, (double)(figure->hi[k] - figure->lo[k]));
-        point->at[k] = character->position[k] + (double)figure->character.position[vertex][k];
+        point->size = maths_hypot(point->size, rig->scale * (double)(figure->hi[k] - figure->lo[k]));
+        shape[k][0] = (double)figure->character.position[vertex][k] + (double)way[k];
     }
     point->slack = SLACK * point->size;
-    point->at[1] -= (double)figure->lo[1];
-    for (int d = 0; d < character->drive_count; d++) {
-        const int coordinate = figure_find(figure, character->drives[d].name);
-        double turn[2];
-        pin_pull moves = {{0}};
-        if (coordinate < 0) continue;
-        drive_turn(&character->drives[d], turn);
-        add_product(&figure->character.coordinates[coordinate], vertex, turn, moves);
-        const double y[2] = {character->drives[d].amplitude * values[d].y, 0};
-        pin_pull rests = {{0}};
-        add_product(&figure->character.coordinates[coordinate], vertex, y, rests);
-        for (int k = 0; k < 3; k++)
-            point->at[k] += rests[k][0] + moves[k][0] * values[d].re - moves[k][1] * values[d].im;
+    for (int k = 0; k < clip.count; k++) {
+        const double z[2] = {(double)clip.weight[k][0], (double)clip.weight[k][1]};
+        add_product(&coordinates[clip.coordinate[k]], vertex, z, shape);
     }
-    for (int i = 0; i < query->count; i++) find_pull(character, figure, vertex, query->splines[i], c[i]);
+    posing_values(posing, query->rig, sample, NULL, values);
+    for (int d = 0; d < rig->drive_count; d++) {
+        const int coordinate = figure_find(figure, rig->drives[d].name);
+        double turn[2];
+        if (coordinate < 0) continue;
+        drive_turn(&rig->drives[d], turn);
+        const double z[2] = {rig->drives[d].amplitude * values[d].y + turn[0] * values[d].re - turn[1] * values[d].im,
+                             turn[0] * values[d].im + turn[1] * values[d].re};
+        add_product(&coordinates[coordinate], vertex, z, shape);
+    }
+
+    // Carried into the world.
+    double root[12], carried[4][3];
+    posing_root(posing, query->rig, NULL, root);
+    for (int j = 0; j < 4; j++) {
+        for (int k = 0; k < 3; k++) {
+            carried[j][k] = j == 3 ? root[9 + k] : 0;
+            for (int a = 0; a < 3; a++) carried[j][k] += root[3 * a + k] * (double)matrix[4 * j + a];
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        point->at[k] = carried[3][k];
+        for (int j = 0; j < 3; j++) point->at[k] += carried[j][k] * shape[j][0];
+    }
+    for (int i = 0; i < query->count; i++) {
+        pin_pull pull = {{0}};
+        find_pull(rig, figure, vertex, query->splines[i], pull);
+        for (int k = 0; k < 6; k++) {
+            for (int j = 0; j < 3; j++) c[i][k / 2][k % 2] += carried[j][k / 2] * pull[j][k % 2];
+        }
+    }
     return true;
 }
 
-static void character_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
+static void model_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
-    const struct character_rig *character = &posing->document->rigs[rig]->character;
-    const struct figure *figure = figure_of(posing, rig);
+    const struct model_rig *model = &posing->document->rigs[rig]->model;
+    const struct figure *figure = models_figure(posing->models, posing->document, rig);
     for (int i = 0; figure && i < count; i++) {
         double sum = 0, areas = 0;
         for (int t = 0; t + 2 < figure->character.index_count; t += 3) {
@@ -119,42 +146,15 @@ static void character_weigh(const struct posing *posing, int rig, const int *spl
             areas += area;
             for (int k = 0; k < 3; k++) {
                 pin_pull c = {{0}};
-                find_pull(character, figure, (int)corner[k], splines[i], c);
+                find_pull(model, figure, (int)corner[k], splines[i], c);
                 sum += area / 3 * pinning_square(c);
             }
         }
-        if (areas > 0) weights[i] += sum / areas;
+        if (areas > 0) weights[i] += model->scale * model->scale * sum / areas;
     }
 }
 
-static const struct pinning_functions character_pinning = {character_find, character_weigh};
-
-static bool character_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                               struct rig_pose *posed)
-{
-    const struct character_rig *character = &posing->document->rigs[rig]->character;
-    const struct figure *figure = figure_of(posing, rig);
-    wiggly_value values[RIG_MAX_INPUTS];
-    if (!figure) return false;
-    posing_values(posing, rig, position, by_hand, values);
-    posed->character.figure = figure;
-    for (int k = 0; k < 3; k++) {
-        posed->character.position[k] = (float)(character->position[k] + (by_hand ? by_hand->base[k] : 0));
-    }
-    pose_character(character, figure, values, posing->look, &posed->character.morph);
-    return true;
-}
-
-static void character_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
-{
-    const struct figure *figure = posed->character.figure;
-    morph_bounds(figure, &posed->character.morph, lo, hi);
-    for (int k = 0; k < 3; k++) {
-        const float at = posed->character.position[k] - (k == 1 ? figure->lo[1] : 0.0f);
-        lo[k] += at;
-        hi[k] += at;
-    }
-}
+const struct pinning_functions model_pinning = {model_find, model_weigh};
 
 // --- lowest vertices: several samples at a time, so that most vertices can be excluded for all of them at once
 
@@ -194,7 +194,7 @@ static void find_ranges(const double *x, int blocks, double *const range[2], dou
 
 /// A vertex's height by coordinate: a Re z − b Im z.
 struct moves {
-    double at_rest, a[CHARACTER_MAX_DRIVES], b[CHARACTER_MAX_DRIVES];
+    double at_rest, a[MODEL_MAX_DRIVES], b[MODEL_MAX_DRIVES];
 };
 
 /// Marks the blocks of a row in which a vertex may be lower than those found; returns whether there are any.
@@ -235,21 +235,37 @@ WIDEST static bool look_at_block(const struct driven *driven, int count, const s
     return true;
 }
 
+/// The same for a model that its clip or a chain moves: of the vertices that a coordinate moves, posed sample by sample.
+static bool lowest_posed(const struct posing *posing, int rig, double ceiling, struct low_point *low)
+{
+    const double delay = document_delay(posing->document, rig);
+    for (int i = 0; i < posing->evaluation->samples; i++) {
+        struct rig_pose posed;
+        float height = (float)ceiling;
+        if (!rig_pose(posing, rig, i + delay, NULL, &posed)) return false;
+        const int vertex = figure_lowest(&posed.model, &height);
+        low[i] = (struct low_point){vertex < 0 ? ceiling : (double)height, vertex};
+    }
+    return true;
+}
+
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low)
 {
-    const struct character_rig *character = &posing->document->rigs[rig]->character;
-    const struct figure *figure = models_figure(posing->models, document_rig_number(posing->document, rig));
+    const struct model_rig *model = &posing->document->rigs[rig]->model;
+    const struct figure *figure = models_figure(posing->models, posing->document, rig);
     const int samples = posing->evaluation->samples;
     const int blocks = low_point_samples(samples) / BLOCK;
-    struct driven driven[CHARACTER_MAX_DRIVES];
+    struct driven driven[MODEL_MAX_DRIVES];
     struct moves moves;
     int count = 0;
     if (!figure) return false;
+    if (model->clip || document_next_chain(posing->document, rig, -1) >= 0)
+        return lowest_posed(posing, rig, ceiling, low);
     // The lowest vertices so far: per sample the height and index, per block the largest of these heights.
     double *lowest = take_room(&room, BLOCK * blocks), *vertex = take_room(&room, BLOCK * blocks);
     double *highest = take_room(&room, blocks);
-    for (int d = 0; d < character->drive_count; d++) {
-        const int coordinate = figure_find(figure, character->drives[d].name);
+    for (int d = 0; d < model->drive_count; d++) {
+        const int coordinate = figure_find(figure, model->drives[d].name);
         if (coordinate < 0) continue;
         struct driven *one = &driven[count++];
         *one = (struct driven){.coordinate = &figure->character.coordinates[coordinate],
@@ -259,7 +275,7 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
                                .im_range = {take_room(&room, blocks), take_room(&room, blocks)}};
 
         // z at every sample, as in pose_character(); after the last sample it stays.
-        const struct drive *drive = &character->drives[d];
+        const struct drive *drive = &model->drives[d];
         const wiggly_curve *curve = &posing->evaluation->curves[drive->spline];
         const double lag = radians(drive->lag), c = maths_cos(lag), s = maths_sin(lag);
         for (int i = 0; i < BLOCK * blocks; i++) {
@@ -273,11 +289,12 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
     for (int i = 0; i < BLOCK * blocks; i++) lowest[i] = ceiling, vertex[i] = -1;
     for (int b = 0; b < blocks; b++) highest[b] = ceiling;
     for (int v = 0; v < figure->character.vertex_count; v++) {
-        moves.at_rest = character->position[1] + (double)figure->character.position[v][1] - (double)figure->lo[1];
+        moves.at_rest =
+            model->position[1] + model->scale * ((double)figure->character.position[v][1] - (double)figure->lo[1]);
         double least = moves.at_rest; // a lower bound of the vertex's height
         for (int k = 0; k < count; k++) {
-            const double a = moves.a[k] = (double)driven[k].coordinate->re[v][1];
-            const double b = moves.b[k] = (double)driven[k].coordinate->im[v][1];
+            const double a = moves.a[k] = model->scale * (double)driven[k].coordinate->re[v][1];
+            const double b = moves.b[k] = model->scale * (double)driven[k].coordinate->im[v][1];
             least += a * driven[k].re_all[a < 0];
             least -= b * driven[k].im_all[b > 0];
         }
@@ -296,5 +313,3 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
     for (int i = 0; i < samples; i++) low[i] = (struct low_point){lowest[i], (int)vertex[i]};
     return true;
 }
-
-const struct posing_functions character_posing = {character_rig_pose, character_rig_bounds, &character_pinning};

@@ -1,4 +1,4 @@
-/// Imported characters and a tail's fox: posed by the clip and the bends on top; and joints followed through clips.
+/// Characters and a tail's fox: posed by the clip and the bends on top; and joints followed through clips.
 #include "maths/maths.h"
 #include "model/fox.h"
 #include "model/vector.h"
@@ -82,24 +82,36 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
         strand_bend(&strand, values, posing->look, pose);
     }
     posed->kind = RIG_MODEL;
-    posed->model.imported = models_imported(posing->models, document, rig);
-    posed->model.pose = pose;
-    posed->model.ground = (float)document->rigs[rig]->model.position[1];
+    posed->imported = models_imported(posing->models, document, rig);
+    posed->model = (struct model_pose){.gltf = &posed->imported->gltf,
+                                       .pose = pose,
+                                       .ground = (float)document->rigs[rig]->model.position[1],
+                                       .figure = models_figure(posing->models, document, rig)};
     posing_root(posing, rig, by_hand, root);
-    gltf_pose_world(&posed->model.imported->gltf, pose);
+    gltf_pose_world(posed->model.gltf, pose);
+    const struct figure *figure = posed->model.figure;
+    if (figure) {
+        float *weights = pose->weights + posed->model.gltf->nodes[figure->character.node].first_weight;
+        posing_values(posing, rig, position, by_hand, values);
+        pose_character(&document->rigs[rig]->model, figure, values, posing->look, weights);
+        posed->model.morph = figure_morph(figure, weights);
+    }
     for (int k = 0; k < 16; k++) posed->model.root[k] = k % 4 == 3 ? k == 15 : (float)root[3 * (k / 4) + k % 4];
     return true;
 }
 
 static void model_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 {
-    const struct imported *imported = posed->model.imported;
+    const struct model_pose *model = &posed->model;
     vec3 box[2];
-    gltf_bounds_at(&imported->bounds, &imported->gltf, posed->model.pose, box[0], box[1]);
-    mat4s root = mat4_from(posed->model.root);
-    glm_aabb_transform(box, root.raw, box);
+    gltf_bounds_at(&posed->imported->bounds, model->gltf, model->pose,
+                   model->figure ? model->figure->character.node : -1, box[0], box[1]);
+    mat4s root = mat4_from(model->root);
+    if (box[0][0] <= box[1][0]) glm_aabb_transform(box, root.raw, box);
     memcpy(lo, box[0], sizeof box[0]);
     memcpy(hi, box[1], sizeof box[1]);
+    if (model->figure) figure_vertices(model, NULL, NULL, lo, hi);
+    for (int k = 0; k < 3 && !(lo[0] <= hi[0]); k++) lo[k] = hi[k] = 0.0f;
 }
 
 // --- joints followed through clips
@@ -230,4 +242,4 @@ bool clip_follow(const void *context, const struct document *document, const str
     return true;
 }
 
-const struct posing_functions model_posing = {rig_pose_body, model_rig_bounds, NULL};
+const struct posing_functions model_posing = {rig_pose_body, model_rig_bounds, &model_pinning};

@@ -23,7 +23,7 @@ struct posing {
     const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
     bool at_rest;            ///< clips do not play
-    enum pose_memory memory; ///< that takes an imported character's pose, until the next one there
+    enum pose_memory memory; ///< that takes a character's pose, until the next one there
     /// Adds a rig's motion by hand to `hand`; NULL: there is none.
     void (*move)(const void *context, int rig, struct by_hand *hand);
     const void *context; ///< for `move`
@@ -31,19 +31,10 @@ struct posing {
 
 struct rig_pose {
     enum rig_kind kind;
+    const struct imported *imported; ///< of a model
     union {
-        struct pose strand; ///< a tail or chain: where its joints are, and its tip
-        struct {
-            const struct figure *figure;
-            struct morph morph;
-            float position[3]; ///< where it stands, metres
-        } character;
-        struct {
-            const struct imported *imported;
-            const struct gltf_pose *pose; ///< the models' own: see struct posing
-            float root[16];               ///< its space → world
-            float ground;                 ///< height of the ground under it, metres
-        } model;
+        struct pose strand;      ///< a tail or chain: where its joints are, and its tip
+        struct model_pose model; ///< its memory is the models' own: see struct posing
     };
 };
 
@@ -52,7 +43,7 @@ struct rig_pose {
 bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
               struct rig_pose *pose);
 
-/// The same for the model that a rig shows: a tail's fox, or an imported character.
+/// The same for the model that a rig shows: a tail's fox, or a character.
 bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    struct rig_pose *pose);
 
@@ -88,7 +79,7 @@ double channel_moves(const struct channel *channel, wiggly_value value, int n, e
 /// The document's models as the scene's source for pins, floors and motions; they must not move in memory. `models` may be NULL.
 struct model_source models_source(const struct models *models);
 
-/// Poses a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's
+/// The shapes of a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's
 /// section 7.2, eq. 29, eq. 30).
 ///
 ///     D(j) = Re(Σ_k z_k Ñ_{k,j}),   z_k = A_k (y + e^{−j·lag_k} x)
@@ -96,11 +87,11 @@ struct model_source models_source(const struct models *models);
 /// The paper writes the turn as e^{iφ}; a lag is φ = −lag. Where the drive's spline has an equilibrium y, the
 /// character rests in the shape that y gives it.
 ///
-/// `values[k]` is the spline value of drive k at the time shown. Drives of coordinates that the figure lacks are
-/// skipped. LOOK_STIFF is the stiff motion that the paper warns of: the real part of x moves the real part of Ñ, all points in
+/// `values[k]` is the spline value of drive k at the time shown; Re z_k and Im z_k are added to the `weights` of the mesh's morph targets, which
+/// a clip may have set. Drives of coordinates that the figure lacks are skipped. LOOK_STIFF is the stiff motion that the paper warns of: the real part of x moves the real part of Ñ, all points in
 /// step. Allocates nothing.
-void pose_character(const struct character_rig *rig, const struct figure *figure, const wiggly_value *values,
-                    enum look look, struct morph *morph);
+void pose_character(const struct model_rig *rig, const struct figure *figure, const wiggly_value *values,
+                    enum look look, float *weights);
 
 // --- private to src/rig: how each kind of rig is posed
 
@@ -124,7 +115,7 @@ struct posing_functions {
 /// The places of its bones in its clip alone, or at rest, in the given memory; NULL if there is no model.
 struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, enum pose_memory memory);
 
-/// The place of an imported character: columns and place of its space in the world.
+/// The place of a character: columns and place of its space in the world.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);
 
 /// Whether a clip loops and fills the scene's range once or several times.
@@ -136,6 +127,9 @@ double posing_clip_time(const struct document *document, double position, const 
 
 /// Its displacement by hand, metres.
 void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);
+
+/// How vertices of a model's soft mesh are found and moved.
+extern const struct pinning_functions model_pinning;
 
 /// Like model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);

@@ -448,10 +448,9 @@ bool tail_pose(const struct posing *posing, int rig, double position, const stru
         set_rotation(pose->place[path.nodes[n].node].rotation, path.nodes[n].rotation);
     fox_move(&path.limbs, pose);
     fox->kind = RIG_MODEL;
-    fox->model.imported = models_imported(posing->models, posing->document, rig);
-    fox->model.pose = pose;
-    fox->model.ground = ground;
-    gltf_pose_world(&fox->model.imported->gltf, pose);
+    fox->imported = models_imported(posing->models, posing->document, rig);
+    fox->model = (struct model_pose){.gltf = &fox->imported->gltf, .pose = pose, .ground = ground};
+    gltf_pose_world(fox->model.gltf, pose);
     for (int k = 0; k < 16; k++) fox->model.root[k] = k % 5 == 0 ? (float)scale : 0.0f;
     for (int k = 0; k < 3; k++) fox->model.root[12 + k] = (float)path.nodes[0].at[k]; // the tail's base
     fox->model.root[15] = 1.0f;

@@ -192,10 +192,7 @@ void document_set_path(struct document *document, const char *path)
 bool document_model_path(const struct document *document, int rig, char path[PATH_LIMIT])
 {
     const struct rig *of = document->rigs[rig];
-    const char *model = of->kind == RIG_MODEL       ? of->model.model
-                        : of->kind == RIG_CHARACTER ? of->character.model
-                                                    : NULL;
-    return model && path_resolve(document->folder, model, path);
+    return of->kind == RIG_MODEL && of->model.model && path_resolve(document->folder, of->model.model, path);
 }
 
 bool document_background_path(const struct document *document, char path[PATH_LIMIT])
@@ -395,12 +392,6 @@ struct tail *document_tail(const struct document *document, int n)
 {
     int found = document_find_rig(document, RIG_TAIL, n);
     return found >= 0 ? &document->rigs[found]->tail : NULL;
-}
-
-struct character_rig *document_character(const struct document *document, int n)
-{
-    int found = document_find_rig(document, RIG_CHARACTER, n);
-    return found >= 0 ? &document->rigs[found]->character : NULL;
 }
 
 int document_find_model(const struct document *document, const char *text, bool by_file)

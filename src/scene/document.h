@@ -209,9 +209,8 @@ int document_count_rigs(const struct document *document, enum rig_kind kind);
 /// A rig's number among those of its kind.
 int document_rig_number(const struct document *document, int rig);
 
-/// The n-th tail or character, or NULL.
+/// The n-th tail, or NULL.
 struct tail *document_tail(const struct document *document, int n);
-struct character_rig *document_character(const struct document *document, int n);
 
 /// Index of the first model rig with that name, or with that file; -1 if there is none.
 int document_find_model(const struct document *document, const char *text, bool by_file);

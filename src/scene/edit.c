@@ -14,7 +14,7 @@
 
 #define EDIT_KIND(kind) (1u << (kind))
 #define EDIT_BENT (EDIT_KIND(RIG_TAIL) | EDIT_KIND(RIG_CHAIN)) ///< kinds that have channels
-#define EDIT_PINNED (EDIT_BENT | EDIT_KIND(RIG_CHARACTER))     ///< kinds that take pins
+#define EDIT_PINNED (EDIT_BENT | EDIT_KIND(RIG_MODEL))         ///< kinds that take pins
 #define EDIT_ANY_KIND (EDIT_KIND(RIG_KINDS) - 1)
 
 /// Ends an edit of a document, of which `before` is a copy; `good` says whether it went well so far. If not, or if a file could not have its
@@ -760,7 +760,7 @@ bool edit_rig_add(struct document *document, const struct rig *contents, struct 
 
     // Without a name it gets one from its file, joint or kind.
     const char *const title = rig_title(contents);
-    const bool is_file = !(rig->name && rig->name[0]) && (rig->kind == RIG_CHARACTER || rig->kind == RIG_MODEL);
+    const bool is_file = !(rig->name && rig->name[0]) && rig->kind == RIG_MODEL;
     const char *const base = is_file ? path_name(title) : title, *const dot = is_file ? strrchr(base, '.') : NULL;
     char *stem = name_from(base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
     free(rig->name);
@@ -900,25 +900,25 @@ bool edit_channel_remove(struct document *document, struct channel_place at, str
     return replace_rig(document, at.rig, changed, error);
 }
 
-static const struct character_rig *find_character(const struct document *document, int rig, struct error *error)
+static const struct model_rig *find_character(const struct document *document, int rig, struct error *error)
 {
-    const struct rig *found = find_rig(document, rig, EDIT_KIND(RIG_CHARACTER), error);
-    return found ? &found->character : NULL;
+    const struct rig *found = find_rig(document, rig, EDIT_KIND(RIG_MODEL), error);
+    return found ? &found->model : NULL;
 }
 
 static bool put_drives(struct document *document, int rig, struct drive *drives, int count, struct error *error)
 {
     struct rig wanted = *document->rigs[rig];
-    wanted.character.drives = drives;
-    wanted.character.drive_count = count;
+    wanted.model.drives = drives;
+    wanted.model.drive_count = count;
     return edit_rig_set(document, rig, &wanted, error);
 }
 
 /// Copies a character's drives into `drives`. Returns how many there are; −1 and an error if it is no character.
-static int take_drives(const struct document *document, int rig, struct drive drives[CHARACTER_MAX_DRIVES + 1],
+static int take_drives(const struct document *document, int rig, struct drive drives[MODEL_MAX_DRIVES + 1],
                        struct error *error)
 {
-    const struct character_rig *character = find_character(document, rig, error);
+    const struct model_rig *character = find_character(document, rig, error);
     if (!character) return -1;
     for (int i = 0; i < character->drive_count; i++) drives[i] = character->drives[i];
     return character->drive_count;
@@ -926,7 +926,7 @@ static int take_drives(const struct document *document, int rig, struct drive dr
 
 bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error)
 {
-    struct drive drives[CHARACTER_MAX_DRIVES + 1];
+    struct drive drives[MODEL_MAX_DRIVES + 1];
     const int count = take_drives(document, rig, drives, error);
     if (count < 0) return false;
     if (index < -1 || index >= count) return fail(error, ERROR_INPUT, "this character has no such coordinate");
@@ -939,7 +939,7 @@ bool edit_drive(struct document *document, int rig, int index, const struct driv
 
 bool edit_drive_remove(struct document *document, int rig, int index, struct error *error)
 {
-    struct drive drives[CHARACTER_MAX_DRIVES + 1];
+    struct drive drives[MODEL_MAX_DRIVES + 1];
     const int count = take_drives(document, rig, drives, error);
     if (count < 0) return false;
     if (index < 0 || index >= count) return fail(error, ERROR_INPUT, "this character has no such coordinate");
@@ -953,7 +953,7 @@ bool edit_paint_new(struct document *document, int rig, int coordinates, int ver
     if (coordinates < 1 || vertices < 1)
         return fail(error, ERROR_INPUT, "there is nothing to paint on this character");
     struct paint *paint = paint_create(coordinates, vertices);
-    struct character_rig *own = &document_own_rig(document, rig)->character;
+    struct model_rig *own = &document_own_rig(document, rig)->model;
     paint_drop(own->painted);
     own->painted = paint;
     return true;
@@ -961,7 +961,7 @@ bool edit_paint_new(struct document *document, int rig, int coordinates, int ver
 
 bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error)
 {
-    const struct character_rig *old = find_character(document, rig, error);
+    const struct model_rig *old = find_character(document, rig, error);
     if (!old) return false;
     const struct paint *paint = old->painted;
     if (!paint) return fail(error, ERROR_INPUT, "this character has no paint yet");
@@ -973,7 +973,7 @@ bool edit_paint(struct document *document, int rig, const struct dab *dab, struc
         if (!good || dab->vertices[i] < 0 || dab->vertices[i] >= paint->vertices)
             return fail(error, ERROR_INPUT, "paint must be finite, and on the model");
     }
-    if (dab->count > 0) paint_dab(&document_own_rig(document, rig)->character.painted, dab);
+    if (dab->count > 0) paint_dab(&document_own_rig(document, rig)->model.painted, dab);
     return true;
 }
 

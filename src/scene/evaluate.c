@@ -586,7 +586,7 @@ static bool floor_concerns(const struct pinned *pinned, int index)
     return rig_has_floor(rig) && rig_input_count(rig) > 0 && pinned->which[rig_input(rig, 0)] == pinned->group;
 }
 
-static double floor_of(const struct pinned *pinned, int rig) { return pinned->document->rigs[rig]->character.floor; }
+static double floor_of(const struct pinned *pinned, int rig) { return pinned->document->rigs[rig]->model.floor; }
 
 /// How far a rig's floor has sunk at each sample.
 static double *sunk_of(const struct pinned *pinned, int rig)

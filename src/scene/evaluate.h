@@ -40,7 +40,7 @@ static inline int low_point_samples(int samples)
     return (samples + LOW_POINT_ROW - 1) / LOW_POINT_ROW * LOW_POINT_ROW;
 }
 
-enum { LOW_POINT_ROOM = 3 * (CHARACTER_MAX_DRIVES + 1) }; ///< numbers needed for finding them, per such sample
+enum { LOW_POINT_ROOM = 3 * (MODEL_MAX_DRIVES + 1) }; ///< numbers needed for finding them, per such sample
 
 /// A pin of a rig, and the splines whose pulls on its point are wanted.
 struct pin_query {

@@ -469,18 +469,18 @@ struct document *scene_parse(const char *name, const char *text, size_t size, st
 bool scene_read_paint(struct document *document, struct error *error)
 {
     struct error first = {0};
-    for (int i = -1; (i = document_next_rig(document, RIG_CHARACTER, i)) >= 0;) {
-        const struct character_rig *character = &document->rigs[i]->character;
-        if (!character->paint_file || character->painted) continue;
+    for (int i = -1; (i = document_next_rig(document, RIG_MODEL, i)) >= 0;) {
+        const struct model_rig *model = &document->rigs[i]->model;
+        if (!model->paint_file || model->painted) continue;
         struct error trouble = {0};
         char path[PATH_LIMIT];
         struct paint *paint = NULL;
-        if (path_resolve(document->folder, character->paint_file, path)) {
+        if (path_resolve(document->folder, model->paint_file, path)) {
             paint = paint_read(path, &trouble);
         } else {
-            fail(&trouble, ERROR_INPUT, "%s: the path is too long", character->paint_file);
+            fail(&trouble, ERROR_INPUT, "%s: the path is too long", model->paint_file);
         }
-        if (paint) document_own_rig(document, i)->character.painted = paint;
+        if (paint) document_own_rig(document, i)->model.painted = paint;
         if (first.kind == ERROR_NONE) first = trouble;
     }
     if (first.kind != ERROR_NONE && error) *error = first;
@@ -560,8 +560,8 @@ char *scene_print_for(const struct document *document, const char *folder, const
     struct members members = {&text, "{\n  ", ",\n  ", false};
     const double frames[] = {document->first_frame, document->last_frame};
     int version = 1; // the format's that the document needs: 2 only for paint
-    for (int n = 0; n < document_count_rigs(document, RIG_CHARACTER); n++) {
-        const struct paint *paint = document_character(document, n)->painted;
+    for (int i = -1; (i = document_next_rig(document, RIG_MODEL, i)) >= 0;) {
+        const struct paint *paint = document->rigs[i]->model.painted;
         if (paint && !paint_is_plain(paint)) version = 2;
     }
     member_number(&members, "wiggly", version);

@@ -102,11 +102,11 @@ bool pins_check(const struct document *document, struct pin_trouble *trouble)
         }
 
         // A character standing below its floor would need its feet lifted, which no spline does.
-        if (rig_has_floor(rig) && rig->character.floor > rig->character.position[1]) {
+        if (rig_has_floor(rig) && rig->model.floor > rig->model.position[1]) {
             *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = "floor"};
             return fail(&trouble->error, ERROR_INPUT,
                         "expected a height of at most %.10g, which is what the character stands on, got %.10g",
-                        rig->character.position[1], rig->character.floor);
+                        rig->model.position[1], rig->model.floor);
         }
 
         *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};

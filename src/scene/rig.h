@@ -114,9 +114,9 @@ struct tail {
 #define TAIL_DEFAULT_JOINTS 24
 #define TAIL_DEFAULT_LENGTH 1.6 /* m */
 
-enum { CHARACTER_MAX_DRIVES = 4 };
+enum { MODEL_MAX_DRIVES = 4 };
 
-/// The drive of a complex normal coordinate of a character (eq. 30): A e^{−j·lag} x.
+/// The drive of a complex normal coordinate of a character (paper, section 7.2, eq. 30): A e^{−j·lag} x.
 struct drive {
     char *name;       ///< of the coordinate in the model
     int spline;       ///< index
@@ -125,35 +125,30 @@ struct drive {
     struct json_t *extra;
 };
 
-/// A soft character in a scene (paper, section 7.2). Its model is a separate file, which may be missing and is not read here.
-struct character_rig {
-    char *model;           ///< a file, relative to the document's folder unless absolute
+#define DRIVE_DEFAULT_AMPLITUDE 1.0
+
+/// Whether a clip begins again after its end: as its keys say, or as the user does.
+enum clip_repeat { REPEAT_BY_CLIP, REPEAT_ONCE, REPEAT_LOOP };
+
+/// A character: a glTF file with what it has, perhaps bones and clips, perhaps complex normal coordinates. It may be missing and is not read
+/// here.
+struct model_rig {
+    char *model;          ///< the file, relative to the document's folder unless absolute
+    char *clip;           ///< the animation that it plays; NULL: it stands at rest
+    int repeat;           ///< enum clip_repeat
+    double position[3];   ///< metres
+    double scale;         ///< times the file's metres; above 0
+    double turn;          ///< degrees about world up
+    struct drive *drives; ///< at most MODEL_MAX_DRIVES
+    int drive_count;
     struct paint *painted; ///< NULL: none, or its file could not be read
     char *paint_file;      ///< .npy file of its paint, or NULL
-    double position[3];    ///< metres
-    struct drive *drives;  ///< at most CHARACTER_MAX_DRIVES
-    int drive_count;
     bool has_floor;
     double floor; ///< height of its floor, metres of the world
     int phases; ///< axis 0 … 2 along which its first coordinate's phases are shown at first; −1: the model's colours
 };
 
-#define DRIVE_DEFAULT_AMPLITUDE 1.0
-
-/// An imported character: a glTF file, which may be missing and is not read here.
-/// Whether a clip begins again after its end: as its keys say, or as the user does.
-enum clip_repeat { REPEAT_BY_CLIP, REPEAT_ONCE, REPEAT_LOOP };
-
-struct model_rig {
-    char *model;        ///< the file, relative to the document's folder unless absolute
-    char *clip;         ///< the animation that it plays; NULL: it stands at rest
-    int repeat;         ///< enum clip_repeat
-    double position[3]; ///< metres
-    double scale;       ///< times the file's metres; above 0
-    double turn;        ///< degrees about world up
-};
-
-/// Joints of an imported character that splines bend on top of its clip.
+/// Joints of a character that splines bend on top of its clip.
 struct chain {
     struct channel *channels; ///< first, as in every kind of rig that has some (rig.h)
     int channel_count;
@@ -173,7 +168,7 @@ enum {
 /// A place for a point of a rig at a frame. All splines that drive the rig are solved through it.
 struct pin {
     double frame;         ///< as written; may be fractional
-    int point;            ///< a vertex of a character's model; the end of a joint of a tail or chain
+    int point;            ///< a vertex of a character's soft mesh; the end of a joint of a tail or chain
     double to[3];         ///< metres of the world
     unsigned id;          ///< as a knot's
     struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
@@ -182,7 +177,7 @@ struct pin {
 /// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
 #define RIG_KIND_LIST(KIND)                                                                                          \
     KIND(RIG_TAIL, tail)                                                                                             \
-    KIND(RIG_CHARACTER, character) KIND(RIG_MODEL, model) KIND(RIG_CHAIN, chain)
+    KIND(RIG_MODEL, model) KIND(RIG_CHAIN, chain)
 
 #define RIG_CONSTANT(constant, name) constant,
 enum rig_kind { RIG_KIND_LIST(RIG_CONSTANT) RIG_KINDS };
@@ -202,7 +197,6 @@ struct rig {
             int channel_count;
         } bent; ///< what each kind that channels bend begins with
         struct tail tail;
-        struct character_rig character;
         struct model_rig model;
         struct chain chain;
     };
@@ -218,10 +212,7 @@ const char *rig_word(enum rig_kind kind);
 const char *rig_title(const struct rig *rig);
 
 /// Whether it is a character that is kept above a floor.
-static inline bool rig_has_floor(const struct rig *rig)
-{
-    return rig->kind == RIG_CHARACTER && rig->character.has_floor;
-}
+static inline bool rig_has_floor(const struct rig *rig) { return rig->kind == RIG_MODEL && rig->model.has_floor; }
 
 /// The splines that bend or drive it, by index: those of its channels or drives.
 int rig_input_count(const struct rig *rig);

@@ -203,12 +203,12 @@ void print_angles(struct members *members, const char *key, const struct angles 
 
 static void paint_load(struct reader *reader, const struct value *object, void *at)
 {
-    struct character_rig *character = &((struct rig *)at)->character;
+    struct model_rig *model = &((struct rig *)at)->model;
     const struct value paint = reader_member(object, "paint"), vertices = reader_member(object, "vertices");
     const size_t coordinates = json_array_size(paint.json);
     int count = 0;
     if (!json_is_array(paint.json)) {
-        if (paint.json) character->paint_file = reader_path(reader, paint);
+        if (paint.json) model->paint_file = reader_path(reader, paint);
         return;
     }
     if (!vertices.json) {
@@ -220,16 +220,16 @@ static void paint_load(struct reader *reader, const struct value *object, void *
         return;
     }
     if (coordinates > (size_t)(MOST_VALUES / count) ||
-        !need_has_room(coordinates * (size_t)count * sizeof *character->painted->values)) {
+        !need_has_room(coordinates * (size_t)count * sizeof *model->painted->values)) {
         reader_fail(reader, &vertices.at, "expected at most %d vertices over all coordinates, and memory for them",
                     MOST_VALUES);
         return;
     }
-    character->painted = paint_create((int)coordinates, count);
+    model->painted = paint_create((int)coordinates, count);
     for (int i = 0; i < (int)coordinates; i++) {
         const struct value value = reader_element(&paint, i);
         const char *text = json_string_value(value.json);
-        const size_t expected = (size_t)count * sizeof *character->painted->values;
+        const size_t expected = (size_t)count * sizeof *model->painted->values;
         size_t size = 0;
         if (json_is_null(value.json)) continue;
         if (!text) {
@@ -243,8 +243,8 @@ static void paint_load(struct reader *reader, const struct value *object, void *
             reader_fail(reader, &value.at, "expected the %zu bytes of %d vertices, got %zu", expected, count, size);
         } else {
             struct error error;
-            memcpy(character->painted->values + (size_t)i * (size_t)count, bytes, size);
-            if (!paint_check(character->painted, i, &error)) reader_fail(reader, &value.at, "%s", error.text);
+            memcpy(model->painted->values + (size_t)i * (size_t)count, bytes, size);
+            if (!paint_check(model->painted, i, &error)) reader_fail(reader, &value.at, "%s", error.text);
         }
         free(bytes);
     }
@@ -252,9 +252,9 @@ static void paint_load(struct reader *reader, const struct value *object, void *
 
 static void paint_print(struct members *members, const struct document *document, const void *at, const char *folder)
 {
-    const struct character_rig *character = &((const struct rig *)at)->character;
-    const struct paint *paint = character->painted;
-    if (!paint && character->paint_file) member_path(members, "paint", document, character->paint_file, folder);
+    const struct model_rig *model = &((const struct rig *)at)->model;
+    const struct paint *paint = model->painted;
+    if (!paint && model->paint_file) member_path(members, "paint", document, model->paint_file, folder);
     if (!paint || paint_is_plain(paint)) return;
     member_number(members, "vertices", paint->vertices);
     member(members, "paint");
@@ -328,7 +328,7 @@ static void load_pins(struct reader *reader, const struct value *object, void *a
     free(loaded);
 }
 
-_Static_assert((int)SCENE_MAX_CHANNELS <= (int)RIG_MAX_INPUTS && (int)CHARACTER_MAX_DRIVES <= (int)RIG_MAX_INPUTS,
+_Static_assert((int)SCENE_MAX_CHANNELS <= (int)RIG_MAX_INPUTS && (int)MODEL_MAX_DRIVES <= (int)RIG_MAX_INPUTS,
                "a channel or drive is an input");
 
 #define PIN_ROWS(point_key)                                                                                          \
@@ -406,7 +406,7 @@ static const struct field tail_fields[] = {
 static const struct rig_functions tail_functions = {
     .word = "tail", .fields = tail_fields, .title = offsetof(struct rig, name), .pins = joint_pins, .is_bent = true};
 
-// --- soft characters
+// --- characters, and chains on them
 
 static const struct field drive_fields[] = {
     {FIELD("name", FIELD_TEXT, struct drive, name), .is_required = true},
@@ -419,29 +419,6 @@ static const struct field drive_fields[] = {
 
 static const char *const phase_axes[] = {"x", "y", "z", NULL};
 
-static const struct field character_fields[] = {
-    RIG_FIRST(false),
-    {FIELD("model", FIELD_PATH, struct rig, character.model), .is_required = true},
-    {FIELD("position", FIELD_NUMBERS, struct rig, character.position), .range = FIELD_ANY},
-    {FIELD_LIST_OF("coordinates", struct rig, character.drives, character.drive_count, drive_fields,
-                   CHARACTER_MAX_DRIVES)},
-    {FIELD("phases", FIELD_WORD, struct rig, character.phases), .words = phase_axes, .usual = {-1}, .is_quiet = true},
-    {FIELD("floor", FIELD_NUMBER, struct rig, character.floor), .range = FIELD_ANY,
-     .flag = offsetof(struct rig, character.has_floor)},
-    {FIELD("paint", FIELD_PATH, struct rig, character.paint_file), .load = paint_load, .print = paint_print},
-    {FIELD("vertices", FIELD_PAINT, struct rig, character.painted)},
-    RIG_OFFSET,
-    RIG_PINS(vertex_pins),
-    FIELD_END(struct rig),
-};
-
-static const struct rig_functions character_functions = {.word = "character",
-                                                         .fields = character_fields,
-                                                         .title = offsetof(struct rig, character.model),
-                                                         .pins = vertex_pins};
-
-// --- imported characters, and chains on them
-
 static const char *const repeats[] = {[REPEAT_BY_CLIP] = "", [REPEAT_ONCE] = "once", [REPEAT_LOOP] = "loop", NULL};
 
 static const struct field model_fields[] = {
@@ -452,11 +429,20 @@ static const struct field model_fields[] = {
     {FIELD("position", FIELD_NUMBERS, struct rig, model.position), .range = FIELD_ANY},
     {FIELD("scale", FIELD_NUMBER, struct rig, model.scale), .range = FIELD_POSITIVE, .usual = {1}},
     {FIELD("turn", FIELD_NUMBER, struct rig, model.turn), .range = FIELD_ANY},
+    {FIELD_LIST_OF("coordinates", struct rig, model.drives, model.drive_count, drive_fields, MODEL_MAX_DRIVES),
+     .is_quiet = true},
+    {FIELD("phases", FIELD_WORD, struct rig, model.phases), .words = phase_axes, .usual = {-1}, .is_quiet = true},
+    {FIELD("floor", FIELD_NUMBER, struct rig, model.floor), .range = FIELD_ANY,
+     .flag = offsetof(struct rig, model.has_floor)},
+    {FIELD("paint", FIELD_PATH, struct rig, model.paint_file), .load = paint_load, .print = paint_print},
+    {FIELD("vertices", FIELD_PAINT, struct rig, model.painted)},
+    RIG_OFFSET,
+    RIG_PINS(vertex_pins),
     FIELD_END(struct rig),
 };
 
 static const struct rig_functions model_functions = {
-    .word = "model", .fields = model_fields, .title = offsetof(struct rig, model.model)};
+    .word = "model", .fields = model_fields, .title = offsetof(struct rig, model.model), .pins = vertex_pins};
 
 static const struct field chain_fields[] = {
     RIG_FIRST(false),
@@ -612,7 +598,8 @@ void load_rigs(struct reader *reader, const struct value *scene)
             if (json_array_append(reader->meadows, object.json) != 0) need_failed();
             continue;
         }
-        const int kind = reader_word(reader, type, words);
+        const bool is_old = word && strcmp(word, "character") == 0; // a model with coordinates
+        const int kind = is_old ? RIG_MODEL : reader_word(reader, type, words);
         // an unknown kind is an error already, so any kind will do
         struct rig *rig = rig_create(kind < 0 ? RIG_TAIL : (enum rig_kind)kind);
         rig->id = document->next_id++;

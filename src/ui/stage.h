@@ -13,28 +13,18 @@
 
 enum {
     STAGE_MAX_TAILS = 8,
-    STAGE_MAX_CHARACTERS = 4,
-    STAGE_MAX_MODELS = 4 + STAGE_MAX_TAILS, ///< imported characters, and tails' foxes
-    STAGE_MAX_BLOBS = 20 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
+    STAGE_MAX_MODELS = 8 + STAGE_MAX_TAILS, ///< characters, and tails' foxes
+    STAGE_MAX_BLOBS = 20 * STAGE_MAX_TAILS + 4 * STAGE_MAX_MODELS,
 };
 
-/// A soft character standing at `position`.
-struct stage_character {
-    const struct figure *figure; ///< valid until the next frame at least
-    struct morph morph;
-    float position[3];
-    int rig;            ///< index in the document
-    int map_coordinate; ///< coordinate whose phases are shown; −1: own colours
-    int map_axis;       ///< axis of the shown phases: x, y, z
-};
-
-/// An imported character or a fox.
+/// A character or a fox.
 struct stage_model {
-    const struct gltf *gltf;      ///< both valid until the next frame at least
-    const struct gltf_pose *pose; ///< in the file's order
-    float root[16];               ///< model → world
-    float ground, dusk;           ///< metres: height of the ground, and up to which it shades the model
-    float lo[3], hi[3];           ///< bounding box, world
+    struct model_pose posed; ///< valid until the next frame at least
+    int rig;                 ///< index in the document; −1: a fox, or a second picture of a character
+    float dusk;              ///< metres above its ground, up to which that shades it
+    float lo[3], hi[3];      ///< bounding box, world
+    int map_coordinate;      ///< coordinate of its figure whose phases are shown; −1: own colours
+    int map_axis;            ///< axis of the shown phases: x, y, z
 };
 
 struct stage_view {
@@ -48,8 +38,6 @@ struct stage_view {
     struct png_picture behind; ///< the background's; without pixels: none
     uint64_t behind_id;        ///< another one for other pixels
     bool has_tail;             ///< the ground is never small
-    struct stage_character characters[STAGE_MAX_CHARACTERS];
-    int character_count;
     struct stage_model models[STAGE_MAX_MODELS];
     int model_count;
     struct shadow_blob blobs[STAGE_MAX_BLOBS];

@@ -481,7 +481,8 @@ static const struct {
     {3, "export film.json --fps 239 -o no/x.mp4", ""},
     {1, "export film.json --fps 239.00003 -o no/x.mp4", "at most 10000000 pictures, got 10000001"},
     // rig
-    {1, "rig assets/models/creature.glb", "creature.glb: expected a character with bones, got a soft one"},
+    {1, "rig assets/models/creature.glb --chain arm -o o.glb",
+     "creature.glb: expected a bone called \"arm\", got none"},
     {1, "rig none.glb", "none.glb"},
     {1, "rig cut.glb", "cut.glb"},
     {1, "rig a.FBX", FBX},

@@ -20,7 +20,7 @@ struct studio {
     struct history *history;
 };
 
-static struct character_rig *rig_of(const struct studio *s) { return document_character(s->document, 0); }
+static struct model_rig *rig_of(const struct studio *s) { return first_model(s->document); }
 
 static void studio_open(struct studio *s)
 {
@@ -53,7 +53,7 @@ static void dab(struct studio *s, int first, int count, float swell, float lead)
 /// The document's paint is the studio's.
 static void assert_same_paint(const struct studio *s, const struct document *document)
 {
-    const struct paint *paint = document_character(document, 0)->painted;
+    const struct paint *paint = first_model(document)->painted;
     assert_non_null(paint);
     assert_int_equal(paint->coordinates, COORDINATES);
     assert_int_equal(paint->vertices, VERTICES);
@@ -155,7 +155,7 @@ static void open_beside(struct studio *s, const char *name)
 static void assert_holds_paint(const struct studio *s, const char *path)
 {
     struct document *document = document_of_file(path);
-    assert_null(document_character(document, 0)->paint_file);
+    assert_null(first_model(document)->paint_file);
     assert_same_paint(s, document);
     document_destroy(document);
 }
@@ -250,7 +250,7 @@ TEST(broken_paint_is_said_and_stays_named)
     assert_false(scene_read_paint(s.document, NULL));
     save(&s);
     struct document *again = document_of_file(folder_path("walk.json"));
-    assert_string_equal(document_character(again, 0)->paint_file, "missing.npy");
+    assert_string_equal(first_model(again)->paint_file, "missing.npy");
     document_destroy(again);
     studio_close(&s);
 }
@@ -285,8 +285,8 @@ STUDIO_TEST(paint_for_another_model_is_kept)
     settle(s);
     paint_stroke(s);
     assert_refusal(models_update(models, s->document, &error), "expected paint for the 1 coordinates of ");
-    assert_non_null(models_figure(models, 0));
-    assert_true(models_figure(models, 0)->version == 0);
+    assert_non_null(models_figure(models, s->document, 0));
+    assert_true(models_figure(models, s->document, 0)->version == 0);
     save(s);
     assert_holds_paint(s, folder_path("walk.json"));
     models_destroy(models);

@@ -143,13 +143,13 @@ static void draw_cube(struct character *c, int map_coordinate, struct shot *shot
 {
     static struct stage_view view;
     const float lo[3] = {-0.7f, 0, -0.7f}, hi[3] = {0.7f, 1.2f, 0.7f};
-    struct figure figure = puppet_figure(c);
+    struct imported cube = puppet_imported(c);
     if (!platform) skip();
     look_at(&view, lo, hi, shot);
-    view.characters[view.character_count++] =
-        (struct stage_character){.figure = &figure, .map_coordinate = map_coordinate};
+    view.models[view.model_count++] =
+        (struct stage_model){.posed = puppet_pose(&cube, (const float[3]){0}), .map_coordinate = map_coordinate};
     shoot(&view, shot);
-    figure_free(&figure);
+    imported_free(&cube);
 }
 
 /// Whether channel k is more than twice the others.
@@ -233,11 +233,10 @@ static void draw_built(struct builder *b, const char *members, struct shot *shot
     assert_true(gltf_pose_create(&gltf, &pose));
     gltf_pose_world(&gltf, &pose);
     look_at(&view, lo, hi, shot);
-    view.models[view.model_count++] = (struct stage_model){.gltf = &gltf,
-                                                           .pose = &pose,
-                                                           .lo = {-1, 0, 0},
-                                                           .hi = {1, 2, 0},
-                                                           .root = {[0] = 1, [5] = 1, [10] = 1, [15] = 1}};
+    view.models[view.model_count++] =
+        (struct stage_model){.posed = {.gltf = &gltf, .pose = &pose, .root = {[0] = 1, [5] = 1, [10] = 1, [15] = 1}},
+                             .lo = {-1, 0, 0},
+                             .hi = {1, 2, 0}};
     shoot(&view, shot);
     gltf_pose_free(&pose);
     gltf_free(&gltf);

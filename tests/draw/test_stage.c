@@ -44,11 +44,7 @@ static void arrange(double side)
     pose_bounds(&tail, lo, hi);
     look_at(&view, lo, hi, &shot);
     struct stage_model *shown = &view.models[view.model_count++];
-    *shown = (struct stage_model){.gltf = &fox.model.imported->gltf,
-                                  .pose = fox.model.pose,
-                                  .ground = fox.model.ground,
-                                  .dusk = 0.35f * tail.scale};
-    memcpy(shown->root, fox.model.root, sizeof shown->root);
+    *shown = (struct stage_model){.posed = fox.model, .dusk = 0.35f * tail.scale};
     rig_bounds(&fox, shown->lo, shown->hi);
     view.has_tail = true;
     view.blob_count = pose_blobs(&tail, view.key_from, view.blobs, STAGE_MAX_BLOBS);
@@ -268,10 +264,10 @@ TEST(nodes_stand_for_themselves)
     gltf_pose_clip(&gltf, -1, 0, &pose);
     gltf_pose_world(&gltf, &pose);
     const struct stage_model shown = {
-        .gltf = &gltf, .pose = &pose, .root = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 0, 0, 1}};
+        .posed = {.gltf = &gltf, .pose = &pose, .root = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 0, 0, 1}}};
     posed_from_gltf(&mesh, &gltf);
     assert_int_equal(mesh.part_count, 2);
-    posed_pose_gltf(&mesh, &shown, eye);
+    posed_pose(&mesh, &shown, eye);
     for (int p = 0; p < 2; p++) { // the second is turned half round
         const struct posed_part *part = &mesh.parts[p];
         int edges = 0;
@@ -339,28 +335,36 @@ TEST(outlines_have_no_stairs)
 static struct shot one = {.width = 500, .height = 300}, other = {.width = 500, .height = 300},
                    third = {.width = 500, .height = 300};
 
-/// A puppet's figure, and how it is shown.
-static struct stage_character shown(const struct figure *figure)
+/// A puppet, and how it is shown.
+static struct stage_model shown(const struct imported *imported)
 {
-    return (struct stage_character){.figure = figure, .map_coordinate = -1};
+    static const float origin[3];
+    return (struct stage_model){.posed = puppet_pose(imported, origin),
+                                .dusk = 0.3f * (imported->gltf.hi[1] - imported->gltf.lo[1]),
+                                .lo = {-1, 0, -1},
+                                .hi = {1, 1.5f, 1},
+                                .map_coordinate = -1};
 }
 
-static struct stage_character mapped(const struct figure *figure, int axis)
+static struct stage_model mapped(const struct imported *imported, int axis)
 {
-    return (struct stage_character){.figure = figure, .map_coordinate = 1, .map_axis = axis};
+    struct stage_model model = shown(imported);
+    model.map_coordinate = 1;
+    model.map_axis = axis;
+    return model;
 }
 
-static void draw_all(const struct stage_character *characters, int count, struct shot *out)
+static void draw_all(const struct stage_model *models, int count, struct shot *out)
 {
     const float lo[3] = {-1, 0, -1}, hi[3] = {1, 1.5f, 1};
     if (!platform) skip();
     look_at(&view, lo, hi, out);
-    memcpy(view.characters, characters, (size_t)count * sizeof *characters);
-    view.character_count = count;
+    memcpy(view.models, models, (size_t)count * sizeof *models);
+    view.model_count = count;
     shoot(&view, out);
 }
 
-static void draw(struct stage_character character, struct shot *out) { draw_all(&character, 1, out); }
+static void draw(struct stage_model model, struct shot *out) { draw_all(&model, 1, out); }
 
 /// Weights work on re and im with their signs: z Ñ = (3 + 4j)(0.12 − 0.16j) = 1 moves as far as another place does; the
 /// second coordinate adds to it. Several rigs may show the same figure.
@@ -373,32 +377,32 @@ TEST(coordinates_move_it)
         character.coordinates[1].im[i][0] = -0.16f;
         character.coordinates[2].re[i][1] = 0.5f;
     }
-    struct figure figure = puppet_figure(&character);
-    struct stage_character moved = shown(&figure), placed = shown(&figure);
-    moved.morph = (struct morph){2, {1, 2}, {{1.5f, 2}, {0.5f, 9}}};
-    moved.position[0] = -0.5f;
-    placed.morph = (struct morph){1, {2}, {{0.5f, 0}}};
+    struct imported figure = puppet_imported(&character);
+    struct stage_model moved = shown(&figure), placed = shown(&figure);
+    moved.posed.morph = (struct morph){2, {1, 2}, {{1.5f, 2}, {0.5f, 9}}};
+    moved.posed.root[12] = -0.5f;
+    placed.posed.morph = (struct morph){1, {2}, {{0.5f, 0}}};
     draw(moved, &one);
     draw(placed, &other);
     assert_true(differing(&one, &other, 2) < 20);
     draw(shown(&figure), &other);
     assert_true(differing(&one, &other, 20) > 1000);
 
-    struct stage_character both[2] = {shown(&figure), shown(&figure)};
-    both[0].position[0] = -0.5f;
-    both[1].position[0] = 0.5f;
+    struct stage_model both[2] = {shown(&figure), shown(&figure)};
+    both[0].posed.root[12] = -0.5f;
+    both[1].posed.root[12] = 0.5f;
     draw_all(both, 2, &other);
     for (int c = 0; c < 2; c++) {
         draw(both[c], &one);
         assert_true(differing(&one, &other, 20) > 1000);
     }
-    figure_free(&figure);
+    imported_free(&figure);
 }
 
 /// A ball that is stretched by its coordinate looks like one that was made so, light and all.
 TEST(normals_follow_on_the_stage)
 {
-    struct character soft = puppet_character(0.05f, 1), firm = puppet_character(0.05f, 0);
+    struct character soft = puppet_character(0.05f, 1), firm = puppet_character(0.05f, 1);
     for (int i = 0; i < soft.vertex_count; i++) {
         const float *p = soft.position[i], *n = soft.normal[i];
         soft.coordinates[0].im[i][0] = -0.8f * p[0] - 0.5f * p[1];
@@ -407,14 +411,14 @@ TEST(normals_follow_on_the_stage)
         memcpy(firm.normal[i], (const float[]){n[0], 1.8f * n[1] - 0.5f * n[0], 1.8f * n[2]}, sizeof firm.normal[i]);
         glm_vec3_normalize(firm.normal[i]);
     }
-    struct figure soft_figure = puppet_figure(&soft), firm_figure = puppet_figure(&firm);
-    struct stage_character moved = shown(&soft_figure);
-    moved.morph = (struct morph){1, {0}, {{0, 1}}};
+    struct imported soft_figure = puppet_imported(&soft), firm_figure = puppet_imported(&firm);
+    struct stage_model moved = shown(&soft_figure);
+    moved.posed.morph = (struct morph){1, {0}, {{0, 1}}};
     draw(moved, &one);
     draw(shown(&firm_figure), &other);
     assert_true(differing(&one, &other, 6) < 60);
-    figure_free(&soft_figure);
-    figure_free(&firm_figure);
+    imported_free(&soft_figure);
+    imported_free(&firm_figure);
 }
 
 /// What is painted after a figure was drawn reaches the GPU: the picture is that of a figure which was made so, and of the plain
@@ -431,11 +435,12 @@ TEST(paint_shows_on_the_stage)
         made.coordinates[1].im[i][0] = 0.3f * sinf(turn);
         paint[plain.vertex_count + i][1] = turn;
     }
-    struct figure plain_figure = puppet_figure(&plain), made_figure = puppet_figure(&made);
-    struct painted *painted = painted_create(&plain_figure);
+    struct imported plain_figure = puppet_imported(&plain), made_figure = puppet_imported(&made);
+    struct painted *painted = painted_create(&plain_figure.figure);
     assert_non_null(painted);
-    struct stage_character moved = shown(&painted->figure), expected = shown(&made_figure);
-    moved.morph = expected.morph = (struct morph){1, {1}, {{0.4f, 0.8f}}};
+    struct stage_model moved = shown(&plain_figure), expected = shown(&made_figure);
+    moved.posed.figure = &painted->figure;
+    moved.posed.morph = expected.posed.morph = (struct morph){1, {1}, {{0.4f, 0.8f}}};
     draw(moved, &third);
     painted_update(painted, (const float(*)[2])paint);
     draw(moved, &one);
@@ -446,8 +451,8 @@ TEST(paint_shows_on_the_stage)
     draw(moved, &other);
     assert_int_equal(differing(&other, &third, 0), 0);
     painted_destroy(painted);
-    figure_free(&plain_figure);
-    figure_free(&made_figure);
+    imported_free(&plain_figure);
+    imported_free(&made_figure);
     free(paint);
 }
 
@@ -466,18 +471,18 @@ static struct character phased(float phase, float more)
 /// Draws a figure twice: by the shader's phase map into `one`, painted with the legend's colours into `other`; without motion into `third`.
 static void draw_mapped(float phase, float more)
 {
-    struct character character = phased(phase, more), painted = puppet_character(0.05f, 0);
-    struct figure figure = puppet_figure(&character);
-    const struct coordinate *c = &figure.character.coordinates[1];
-    const float largest = figure.largest[1][2];
+    struct character character = phased(phase, more), painted = puppet_character(0.05f, 1);
+    struct imported figure = puppet_imported(&character);
+    const struct coordinate *c = &figure.figure.character.coordinates[1];
+    const float largest = figure.figure.largest[1][2];
     for (int i = 0; i < painted.vertex_count; i++)
         phase_color_linear(c->re[i][2] / largest, c->im[i][2] / largest, painted.color[i]);
-    struct figure painted_figure = puppet_figure(&painted);
+    struct imported painted_figure = puppet_imported(&painted);
     draw(mapped(&figure, 2), &one);
     draw(shown(&painted_figure), &other);
     draw(mapped(&figure, 0), &third);
-    figure_free(&painted_figure);
-    figure_free(&figure);
+    imported_free(&painted_figure);
+    imported_free(&figure);
 }
 
 /// The shader's phase map has the legend's colours, all around; where nothing moves it is grey. Between two eighths of a turn there is a thin
@@ -511,10 +516,10 @@ static void draw_with_eyes(float coat, float eyes, struct shot *map, struct shot
     struct character character = phased(0.5f, 0.3f);
     for (int i = 0; i < character.vertex_count; i++)
         for (int k = 0; k < 3; k++) character.color[i][k] = character.position[i][1] > 0.9f ? eyes : coat;
-    struct figure figure = puppet_figure(&character);
+    struct imported figure = puppet_imported(&character);
     draw(mapped(&figure, 2), map);
     draw(shown(&figure), plain);
-    figure_free(&figure);
+    imported_free(&figure);
 }
 
 /// Dark eyes on a coat stay as they are; a coat that is dark all over has phases all over.

@@ -409,7 +409,7 @@ PIN_TEST(test_a_floor_is_dragged,
     assert_true(fabs(s->world.evaluation->curves[0].total[35] - was) > 1e-3); // the motion follows in the same frame
     hands(s, "release; is rigs.0.floor > 0.02");
     session_where(s, "floor(c)", to);
-    s->document->rigs[0]->character.has_floor = false;
+    s->document->rigs[0]->model.has_floor = false;
     session_move(s, to[0], to[1]);
     session_frame(s);
     assert_ptr_not_equal(hovered(s->editor), &thing_floor);
@@ -442,7 +442,7 @@ SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, "{'frames': [0, 48], 
 PIN_TEST(test_a_character_comes_and_goes, bear)
 {
     hands(s, "key A; click item.copy.0; wait; is rigs.# 2; is rigs.1.position.0 > 0.5;"
-             "is rigs.1.coordinates.0.spline s; is stage.characters 2");
+             "is rigs.1.coordinates.0.spline s; is stage.models 2");
     assert_int_equal(s->editor->core.focus.characters.character, 1);
     hands(s, "once; key Ctrl+Z; key Shift+Delete; is asked ask");
     assert_non_null(strstr(dialog_of(s->editor)->question.title, "Remove bear"));
@@ -483,8 +483,7 @@ TEST(test_a_glb_is_told_by_its_beginning)
     assert_done(import_add(document, "assets/models/dog.glb", 0, &error));
     assert_done(import_add(document, "assets/models/creature.glb", 0, &error));
     assert_refusal(import_add(document, "Makefile", 0, &error), "Makefile");
-    assert_int_equal(document_count_rigs(document, RIG_CHARACTER), 2);
-    assert_int_equal(document_count_rigs(document, RIG_MODEL), 1);
+    assert_int_equal(document_count_rigs(document, RIG_MODEL), 3);
     assert_int_equal(document->spline_count, 1);
     assert_string_equal(document->rigs[2]->name, "creature 2");
     document_destroy(document);

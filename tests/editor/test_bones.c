@@ -47,7 +47,7 @@ static float turned(const struct session *s, const char *name)
 {
     const struct imported *beast = models_imported(s->world.models, s->document, 0);
     const int node = gltf_find_node(&beast->gltf, name);
-    const float *now = editor_stage(s->editor)->models[0].pose->world[node], *rest = beast->rest.world[node];
+    const float *now = editor_stage(s->editor)->models[0].posed.pose->world[node], *rest = beast->rest.world[node];
     float square = 0;
     for (int k = 0; k < 12; k++) square += (now[k] - rest[k]) * (now[k] - rest[k]);
     return sqrtf(square);
@@ -56,7 +56,7 @@ static float turned(const struct session *s, const char *name)
 /// It goes where the pointer takes it, its chain swings after it and comes to rest; one step, and Esc takes it back.
 BEAST_TEST(test_a_dragged_character_moves_and_its_chain_follows_through, TAIL)
 {
-    const float *root = editor_stage(s->editor)->models[0].root;
+    const float *root = editor_stage(s->editor)->models[0].posed.root;
     const float start[2] = {root[12], root[14]};
     hands(s, "pull bone(neck) 80 0 6");
     const float held[2] = {root[12], root[14]};
@@ -80,10 +80,11 @@ BEAST_TEST(test_the_original_is_shown_beside_it, TAIL)
     assert_done(edit_knot_insert(s->editor->core.document, 0, &(struct knot){.value = 2, .stiffness = 1}, &error));
     hands(s, "key Alt+V; wait");
     assert_int_equal(view->model_count, 2);
-    const int tip = gltf_find_node(beast[0].gltf, "tail_8"), hips = gltf_find_node(beast[0].gltf, "hips");
-    assert_true(beast[1].root[12] > beast[0].root[12] + 0.5f);
-    assert_memory_equal(beast[0].pose->world[hips], beast[1].pose->world[hips], sizeof *beast->pose->world);
-    assert_true(fabsf(beast[0].pose->world[tip][12] - beast[1].pose->world[tip][12]) > 0.05f);
+    const int tip = gltf_find_node(beast[0].posed.gltf, "tail_8"), hips = gltf_find_node(beast[0].posed.gltf, "hips");
+    assert_true(beast[1].posed.root[12] > beast[0].posed.root[12] + 0.5f);
+    assert_memory_equal(beast[0].posed.pose->world[hips], beast[1].posed.pose->world[hips],
+                        sizeof *beast->posed.pose->world);
+    assert_true(fabsf(beast[0].posed.pose->world[tip][12] - beast[1].posed.pose->world[tip][12]) > 0.05f);
     hands(s, "key Alt+V; wait");
     assert_int_equal(view->model_count, 1);
 }
@@ -485,10 +486,10 @@ static void between(const struct session *s, const char *from, const char *to, f
 {
     const struct stage *stage = s->editor->stage;
     const struct stage_model *model = &stage->view.models[0];
-    const float *a = model->pose->world[gltf_find_node(model->gltf, from)] + 12;
-    const float *b = model->pose->world[gltf_find_node(model->gltf, to)] + 12;
+    const float *a = model->posed.pose->world[gltf_find_node(model->posed.gltf, from)] + 12;
+    const float *b = model->posed.pose->world[gltf_find_node(model->posed.gltf, to)] + 12;
     float at[3];
-    for (int k = 0; k < 3; k++) at[k] = model->root[12 + k] + a[k] + (b[k] - a[k]) * share;
+    for (int k = 0; k < 3; k++) at[k] = model->posed.root[12 + k] + a[k] + (b[k] - a[k]) * share;
     const struct rect r = layout_of(s->editor)->stage;
     assert_true(camera_project(stage->view.view, stage->view.projection, (float[]){r.x, r.y, r.w, r.h}, at, xy));
 }

@@ -40,7 +40,7 @@ static int make_model(void **state)
 
 static const struct figure *plain; ///< the character without paint
 
-static const struct paint *paint_of(const struct session *s) { return document_character(s->document, 0)->painted; }
+static const struct paint *paint_of(const struct session *s) { return first_model(s->document)->painted; }
 
 /// With the brush on, unless a test is about how it is taken.
 static void open_studio(struct session *s, bool takes_brush)
@@ -51,7 +51,8 @@ static void open_studio(struct session *s, bool takes_brush)
              "[<0 1>, <20 -1>]}], 'rigs': [{'type': 'character', 'name': 'hand', 'model': '%s', 'coordinates': "
              "[{'name': 'a', 'spline': 's'}]}]}",
              folder_path("hand.glb"));
-    plain = models_figure(panel_open_models(s, scene), 0);
+    const struct models *models = panel_open_models(s, scene);
+    plain = models_figure(models, s->document, 0);
     if (playback_of(s->editor)->playing) hands(s, "key Space");
     camera_of(s->editor)->azimuth = -1.5708f; // from the front
     hands(s, takes_brush ? "wait 1; key Shift+B" : "wait 1");
@@ -124,7 +125,7 @@ STUDIO_TEST(undo_and_redo_are_exact)
     hands(s, "key Ctrl+Z");
     assert_null(paint_of(s));
     hands(s, "wait 1");
-    assert_memory_equal(models_figure(s->work.models, 0)->character.coordinates[0].re,
+    assert_memory_equal(models_figure(s->work.models, s->document, 0)->character.coordinates[0].re,
                         plain->character.coordinates[0].re, (size_t)plain->character.vertex_count * sizeof(float[3]));
     hands(s, "key 2*Ctrl+Shift+Z");
     assert_memory_equal(paint_of(s)->values, twice, size);
@@ -222,7 +223,7 @@ STUDIO_TEST(a_long_stroke_saturates)
 /// Sum over all edges of the finger's middle of how much Ñ' differs in phase and in the logarithm of amplitude.
 static void variation(const struct session *s, double sum[2])
 {
-    const struct figure *figure = models_figure(s->work.models, 0);
+    const struct figure *figure = models_figure(s->work.models, s->document, 0);
     const struct coordinate *c = &figure->character.coordinates[0];
     sum[0] = sum[1] = 0;
     for (int i = 0; i < figure->character.vertex_count; i++) {
@@ -302,10 +303,10 @@ SESSION_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns, open_studio
     const struct stage *stage = s->editor->stage;
     const struct camera *camera = camera_of(s->editor);
     const struct brush *brush = brush_of(s->editor);
-    assert_int_equal(stage->view.characters[0].map_coordinate, -1);
+    assert_int_equal(stage->view.models[0].map_coordinate, -1);
     hands(s, "key Shift+B; wait 1");
-    assert_int_equal(stage->view.characters[0].map_coordinate, 0);
-    assert_int_equal(stage->view.characters[0].map_axis, 0); // it moves along x most
+    assert_int_equal(stage->view.models[0].map_coordinate, 0);
+    assert_int_equal(stage->view.models[0].map_axis, 0); // it moves along x most
     hands(s, "hover " LEFT);
     assert_true(stage->painting.covers);
     const double radius = brush->radius, strength = brush->strength;
@@ -318,7 +319,7 @@ SESSION_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns, open_studio
     assert_int_equal((int)history_count(s->history), 0);
     hands(s, "key Escape; wait 1");
     assert_false(brush->on);
-    assert_int_equal(stage->view.characters[0].map_coordinate, -1);
+    assert_int_equal(stage->view.models[0].map_coordinate, -1);
 }
 
 /// A press that is released before a frame came paints all the same; paint for another model is left alone.

@@ -181,7 +181,7 @@ TEST(test_advice_names_what_is_there)
 {
 #define SWING "[{'name': 'swing', 'knots': [{'frame': 0, 'value': 1}]}]"
 #define KNOTLESS "[{'name': 'swing', 'knots': []}]"
-#define BEAR "{'type': 'character', 'model': '/home/ada/bear.glb', 'coordinates': []}"
+#define BEAR "{'type': 'character', 'model': '/home/ada/bear.glb', 'coordinates': [{'name': 'a', 'spline': 'swing'}]}"
 #define REX "{'type': 'model', 'name': 'rex', 'model': '/home/ada/rex.glb'}"
     static const struct {
         const char *splines, *rigs, *card, *status;

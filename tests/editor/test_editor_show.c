@@ -593,7 +593,7 @@ SESSION_TEST(test_a_character_has_skins_and_an_arc, open_bear(s))
     assert_int_equal(MARKS(s).count, 0);
     session_key(s, 'O', MOD_SHIFT);
     assert_in_range(MARKS(s).count, 44, 49);
-    const struct character *bear = &models_figure(s->world.models, 0)->character;
+    const struct character *bear = &models_figure(s->world.models, s->document, 0)->character;
     const int point = overlay_point(s->editor->stage, &s->editor->core).at;
     for (int i = 0; i < bear->vertex_count; i++) assert_true(way_of(bear, i) <= way_of(bear, point) + 1e-6f);
     hands(s, "click onion; click trail");

@@ -250,7 +250,7 @@ SESSION_TEST(test_what_can_be_done_now, session_open(s, scene))
     } rows[] = {
         {"", 'Z', MOD_CTRL, "There is nothing to undo."},
         {"", 'T', 0, "Select a knot first."},
-        {"", 'J', 0, "Click a bone of an imported character first."},
+        {"", 'J', 0, "Click a bone of a character first."},
         {"", 'B', MOD_SHIFT, "Select a soft character first."},
         {"", KEY_PAGE_UP, MOD_ALT, "Select a pin first."},
         {"", 'A', MOD_CTRL, NULL},

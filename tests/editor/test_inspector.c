@@ -367,11 +367,11 @@ static void open_puppet(struct session *s, const char *more_rigs, const char *co
     session_frame(s);
 }
 
-static const struct stage_character *on_stage(const struct session *s, int index)
+static const struct stage_model *on_stage(const struct session *s, int index)
 {
     const struct stage_view *view = editor_stage(s->editor);
-    assert_true(index < view->character_count);
-    return &view->characters[index];
+    assert_true(index < view->model_count);
+    return &view->models[index];
 }
 
 SESSION_TEST(test_a_character_behind_a_tail_is_edited,
@@ -390,31 +390,31 @@ SESSION_TEST(test_a_lag_is_the_characters,
 
 SESSION_TEST(test_a_character_is_edited_live, open_puppet(s, "", "{'name': 'a', 'spline': 's'}"))
 {
-    const float before = on_stage(s, 0)->morph.weight[0][0];
+    const float before = on_stage(s, 0)->posed.morph.weight[0][0];
     hands(s, "slide amplitude 1.5; is rigs.0.coordinates.0.amplitude 1.5 ~0.05");
-    assert_near(on_stage(s, 0)->morph.weight[0][0], (double)before * number(s, "rigs.0.coordinates.0.amplitude"),
-                1e-4);
+    assert_near(on_stage(s, 0)->posed.morph.weight[0][0],
+                (double)before * number(s, "rigs.0.coordinates.0.amplitude"), 1e-4);
     hands(s, "release; once; enter drive.lag 90; is rigs.0.coordinates.0.lag 90;"
              "key Ctrl+Z; is rigs.0.coordinates.0.lag 0; key Ctrl+Z; kept; label;"
              "click drive.add.0; click item.b; is rigs.0.coordinates.# 2; is rigs.0.coordinates.1.name b;"
              "enter offset 2.5; is rigs.0.offset 2.5; label Set offset; key Ctrl+Z; is rigs.0.offset nothing;"
              "click drive.1; click drive.splines.0; click item.t; is rigs.0.coordinates.1.spline t;"
              "is rigs.0.coordinates.0.spline s");
-    assert_int_equal(on_stage(s, 0)->morph.count, 2);
+    assert_int_equal(on_stage(s, 0)->posed.morph.count, 2);
     hands(s, "click drive.0.remove; is rigs.0.coordinates.# 1; is rigs.0.coordinates.0.name b; undone");
 }
 
 /// The map of phases, and the stiff look.
 SESSION_TEST(test_views_of_a_character, open_puppet(s, "", "{'name': 'a', 'spline': 's'}"))
 {
-    const struct stage_character *const it = on_stage(s, 0);
+    const struct stage_model *const it = on_stage(s, 0);
     assert_int_equal(it->map_coordinate, -1);
     hands(s, "click phases.z; wait");
     assert_true(it->map_coordinate == 0 && it->map_axis == 2);
     hands(s, "kept; label; key Right");
-    assert_true(fabsf(it->morph.weight[0][1]) > 1e-3f);
+    assert_true(fabsf(it->posed.morph.weight[0][1]) > 1e-3f);
     session_key(s, 'V', 0);
-    assert_near(it->morph.weight[0][1], 0, 0);
+    assert_near(it->posed.morph.weight[0][1], 0, 0);
 }
 
 // --- the list of the history ----------------------------------------------------------------------------------------------

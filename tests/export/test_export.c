@@ -1,4 +1,4 @@
-/// What wiggly export writes, read back: by the reader of imported characters, by that of motions, and number by number; and every bone of a
+/// What wiggly export writes, read back: by the reader of characters, by that of motions, and number by number; and every bone of a
 /// .bvh, where the .glb of the same scene has it.
 #include "export_scene.h"
 #include "gltf_builder.h"
@@ -306,7 +306,7 @@ EXPORT_TEST(refusals_say_what_to_do)
         {tail, "a.gif", {0}, "expected a name ending in"},
         {tail, "a.usda", {.all_clips = true}, "a.usda: holds one clip: all clips need .glb or .gltf"},
         {bare, "a.glb", {0}, "no rig to export: its splines go into a .csv"},
-        {character, "a.bvh", {0}, "cannot hold the character \"character\": export it as .glb, .gltf, .usda, .csv, "},
+        {character, "a.bvh", {0}, "cannot hold the model \"model\": export it as .glb, .gltf, .usda, .csv, "},
         {two, "a.pc2", {0}, "choose one of \"nodder\", \"swayer\" with --rig"},
         {two, "a.pc2", {.rig_choice = "a row"}, "choose one of \"nodder\", \"swayer\" with a row"},
         {two, "a.glb", {.rig = "noder"}, "\"nodder\", \"swayer\", got \"noder\""},

@@ -1,4 +1,4 @@
-/// What wiggly export writes of imported characters: their own files with a clip more, in either container; and .usda, of all rigs.
+/// What wiggly export writes of characters: their own files with a clip more, in either container; and .usda, of all rigs.
 #include "base/png.h"
 #include "export/form.h"
 #include "export_scene.h"
@@ -356,7 +356,7 @@ static double usda_is_off(const char *text, const struct points *points)
     return off;
 }
 
-/// Of imported characters, in their file's place or the stage's, and of all other rigs.
+/// Of characters, in their file's place or the stage's, and of all other rigs.
 EXPORT_TEST(usd_moves_as_the_stage_does)
 {
     static const struct {

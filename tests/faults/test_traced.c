@@ -126,7 +126,7 @@ static const char *work(const char *name)
 /// Gives document and paint a mark of their version, as unsaved edits.
 static void mark(struct document *document, int version)
 {
-    struct character_rig *rig = document_character(document, 0);
+    struct model_rig *rig = first_model(document);
     paint_drop(rig->painted);
     rig->painted = paint_create(COORDINATES, VERTICES);
     assert_non_null(rig->painted);
@@ -150,7 +150,7 @@ static int saved_version(void)
 {
     struct document *document = document_of_file(work("walk.json"));
     const int version = (int)document->fps;
-    const struct paint *paint = document_character(document, 0)->painted;
+    const struct paint *paint = first_model(document)->painted;
     assert_non_null(paint);
     for (int v = 0; v < VERTICES; v++) assert_int_equal((int)paint->values[v][1], version);
     document_destroy(document);

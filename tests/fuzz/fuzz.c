@@ -297,17 +297,6 @@ static void outline(const struct posed *mesh, const float eye[3])
     }
 }
 
-static void draw_figure(const struct figure *figure)
-{
-    const float eye[3] = {1, 2, 3};
-    const struct stage_character shown = {.figure = figure};
-    struct posed mesh;
-    posed_from_figure(&mesh, figure);
-    posed_pose_figure(&mesh, &shown, eye);
-    outline(&mesh, eye);
-    posed_free(&mesh);
-}
-
 /// What `analyze` writes of a character, and what a frame that shows it hands to the GPU. Takes the character.
 static void use_character(struct character *character)
 {
@@ -317,7 +306,6 @@ static void use_character(struct character *character)
     for (int e = 0; e < figure.edges.first[c->vertex_count]; e++)
         expect(figure.edges.other[e] < (uint32_t)c->vertex_count, "an edge ends at a vertex of the surface");
     for (int k = 0; k < 2 * c->coordinate_count; k++) figure_target_create(&figure, k / 2, k % 2, &figure.pool);
-    draw_figure(&figure);
     figure_free(&figure);
 }
 
@@ -364,7 +352,7 @@ static void pose_at(const struct imported *imported, int clip, double time, stru
     float lo[3], hi[3];
     gltf_pose_clip(gltf, clip, time, pose);
     gltf_pose_world(gltf, pose);
-    gltf_bounds_at(&imported->bounds, gltf, pose, lo, hi);
+    gltf_bounds_at(&imported->bounds, gltf, pose, -1, lo, hi);
     for (int node = 0; node < gltf->node_count; node++) {
         const size_t count = (size_t)gltf_vertex_count(gltf, node) + 1;
         float(*vectors)[3] = malloc(2 * count * sizeof *vectors);
@@ -382,10 +370,14 @@ static void import(const char *path)
     if (!taken(imported_read(&imported, path, &error), &error)) return;
     for (int clip = -1; clip < imported.gltf.clip_count && clip < 3; clip++)
         pose_at(&imported, clip, clip < 0 ? 0 : 0.6 * imported.gltf.clips[clip].last, &imported.rest);
-    const struct stage_model shown = {
-        .gltf = &imported.gltf, .pose = &imported.rest, .root = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
-    posed_from_gltf(&mesh, shown.gltf);
-    posed_pose_gltf(&mesh, &shown, eye);
+    const bool is_soft = imported.figure.character.vertex_count > 0;
+    const struct stage_model shown = {.posed = {.gltf = &imported.gltf,
+                                                .pose = &imported.rest,
+                                                .root = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                                .figure = is_soft ? &imported.figure : NULL}};
+    posed_from_gltf(&mesh, &imported.gltf);
+    posed_map(&mesh, &shown);
+    posed_pose(&mesh, &shown, eye);
     outline(&mesh, eye);
     posed_free(&mesh);
     imported_free(&imported);

@@ -1,4 +1,4 @@
-/// Chains: bones of imported characters, whatever their rolls, bend as the tail does, and two by one spline as mirror images; and they are made
+/// Chains: bones of characters, whatever their rolls, bend as the tail does, and two by one spline as mirror images; and they are made
 /// with names, splines and channels that suit the character, motion that follows its clip, and one step to undo.
 #include "beast.h"
 #include "model/vector.h"
@@ -50,7 +50,7 @@ static void bend(const struct opened *opened, int rig, enum look look, const wig
     assert_true(rig_pose_body(&posing, rig_body(opened->document, rig), 0, NULL, &body));
     const struct chain *of = &opened->document->rigs[rig]->chain;
     struct chain_bones bones;
-    assert_done(chain_find(&body.model.imported->gltf, of->from, of->to, &bones, &error));
+    assert_done(chain_find(&body.imported->gltf, of->from, of->to, &bones, &error));
     assert_int_equal(chain.strand.count, bones.count + 1);
     for (int n = 0; n < bones.count; n++) {
         mat4s shown;
@@ -631,7 +631,7 @@ static double largest_turn(struct opened *opened, const char *bone)
     for (int s = 0; s < opened->evaluation.samples; s++) {
         struct rig_pose posed;
         assert_true(rig_pose_body(&posing, 0, s, NULL, &posed));
-        const struct gltf *gltf = &posed.model.imported->gltf;
+        const struct gltf *gltf = &posed.imported->gltf;
         const int node = gltf_find_node(gltf, opened->document->rigs[rig]->chain.to);
         const mat3s swung = glms_mat4_pick3(mat4_from(posed.model.pose->world[node]));
         struct gltf_pose *clip = posing_clip(&posing, 0, s, POSE_UNSEEN);
@@ -704,7 +704,7 @@ STAND_TEST(an_offset_delays_what_bends_not_the_clip, stand_open(stand, "assets/s
                 const double read = !later && j < 2 ? at - offset : at, seen = 4 * (read < 0 ? read + 96 : read);
                 struct rig_pose posed;
                 assert_true(rig_pose_body(&posing, 0, seen, NULL, &posed));
-                const int node = gltf_find_node(&posed.model.imported->gltf, joints[j]);
+                const int node = gltf_find_node(&posed.imported->gltf, joints[j]);
                 versors bent, clip;
                 memcpy(bent.raw, posed.model.pose->place[node].rotation, sizeof bent.raw);
                 memcpy(clip.raw, posing_clip(&posing, 0, seen, POSE_UNSEEN)->place[node].rotation, sizeof clip.raw);

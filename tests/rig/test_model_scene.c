@@ -78,7 +78,7 @@ TEST(every_kind_of_rig_can_be_copied)
         " {\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\"}]}";
     struct document *documents[] = {document_of_text(whole), document_of_text(character)};
     assert_true(edit_paint_new(documents[1], 0, 1, 4, NULL));
-    documents[1]->rigs[0]->character.painted->values[2][1] = 0.5f;
+    documents[1]->rigs[0]->model.painted->values[2][1] = 0.5f;
     for (int d = 0; d < 2; d++) {
         char *text = text_of_document(documents[d]);
         for (int r = 0; r < documents[d]->rig_count; r++) {
@@ -90,7 +90,7 @@ TEST(every_kind_of_rig_can_be_copied)
         assert_prints(documents[d], text);
         free(text);
     }
-    const struct character_rig *copied = &documents[1]->rigs[0]->character;
+    const struct model_rig *copied = &documents[1]->rigs[0]->model;
     assert_near(copied->painted->values[2][1], 0.5, 0);
     for (int d = 0; d < 2; d++) document_destroy(documents[d]);
 }

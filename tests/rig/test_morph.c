@@ -27,45 +27,49 @@ TEST(positions_are_those_of_equation_30)
 {
     struct character character = puppet_character(0.2f, 3);
     stir(&character);
-    struct figure figure = puppet_figure(&character);
-    const struct character_rig rig = {.drives = (struct drive[]){{.name = "c", .amplitude = 0.7, .lag = 40},
-                                                                 {.name = "not there", .amplitude = 9},
-                                                                 {.name = "a", .amplitude = -1.5, .lag = -100}},
-                                      .drive_count = 3};
+    struct imported ball = puppet_imported(&character);
+    const struct figure *figure = &ball.figure;
+    const struct model_rig rig = {.drives = (struct drive[]){{.name = "c", .amplitude = 0.7, .lag = 40},
+                                                             {.name = "not there", .amplitude = 9},
+                                                             {.name = "a", .amplitude = -1.5, .lag = -100}},
+                                  .drive_count = 3};
     const wiggly_value x[] = {{0.25, 0.6, -0.9}, {1, 1, 1}, {0, -0.3, 0.4}};
     const double complex values[2][2] = {
         {0.25 + cexp(-I * 40 * M_PI / 180) * (0.6 - 0.9 * I), cexp(I * 100 * M_PI / 180) * (-0.3 + 0.4 * I)},
         {0.25 + 0.6, -0.3}};
     for (int stiff = 0; stiff < 2; stiff++) {
-        struct rig_pose posed = {.kind = RIG_CHARACTER, .character = {.figure = &figure, .position = {5, 6, 7}}};
-        const struct morph *morph = &posed.character.morph;
-        pose_character(&rig, &figure, x, stiff ? LOOK_STIFF : LOOK_WIGGLY, &posed.character.morph);
+        struct rig_pose posed = {
+            .kind = RIG_MODEL, .imported = &ball, .model = puppet_pose(&ball, (const float[3]){5, 6, 7})};
+        const struct morph *morph = &posed.model.morph;
+        gltf_pose_clip(&ball.gltf, -1, 0, &ball.rest);
+        pose_character(&rig, figure, x, stiff ? LOOK_STIFF : LOOK_WIGGLY, ball.rest.weights);
+        posed.model.morph = figure_morph(figure, ball.rest.weights);
         assert_int_equal(morph->count, 2);
-        float lo[2][3], hi[2][3];
+        float lo[3], hi[3];
         double most[3] = {-INFINITY, -INFINITY, -INFINITY}, least[3] = {INFINITY, INFINITY, INFINITY};
-        morph_bounds(&figure, morph, lo[0], hi[0]);
-        rig_bounds(&posed, lo[1], hi[1]);
-        for (int i = 0; i < figure.character.vertex_count; i++) {
-            float p[3];
-            morph_vertex(&figure, morph, i, p, NULL);
+        rig_bounds(&posed, lo, hi);
+        for (int i = 0; i < figure->character.vertex_count; i++) {
+            float p[3], place[3];
+            morph_vertex(figure, morph, i, p, NULL);
+            figure_vertex(&posed.model, i, place);
             for (int k = 0; k < 3; k++) {
-                const struct coordinate *c = &figure.character.coordinates[2], *a = &figure.character.coordinates[0];
+                const struct coordinate *c = &figure->character.coordinates[2],
+                                        *a = &figure->character.coordinates[0];
                 const double complex sum = 0.7 * values[stiff][0] * ((double)c->re[i][k] + I * (double)c->im[i][k]) -
                                            1.5 * values[stiff][1] * ((double)a->re[i][k] + I * (double)a->im[i][k]);
-                assert_near((double)p[k], (double)figure.character.position[i][k] + creal(sum), 1e-5);
+                assert_near((double)p[k], (double)figure->character.position[i][k] + creal(sum), 1e-5);
+                assert_near((double)place[k], (double)(p[k] + posed.model.root[12 + k]), 1e-6);
                 most[k] = fmax(most[k], (double)p[k]);
                 least[k] = fmin(least[k], (double)p[k]);
             }
         }
         for (int k = 0; k < 3; k++) {
-            const double at = 5 + k - (k == 1 ? (double)figure.lo[1] : 0);
-            assert_near(hi[0][k], most[k], 0);
-            assert_near(lo[0][k], least[k], 0);
-            assert_near(hi[1][k], most[k] + at, 1e-6);
-            assert_near(lo[1][k], least[k] + at, 1e-6);
+            const double at = 5 + k - (k == 1 ? (double)figure->lo[1] : 0);
+            assert_near(hi[k], most[k] + at, 1e-6);
+            assert_near(lo[k], least[k] + at, 1e-6);
         }
     }
-    figure_free(&figure);
+    imported_free(&ball);
 }
 
 /// A deformation that is linear in space has the cofactors of 1 + Re(z M) everywhere: stretched, sheared and squeezed. A file's targets turn
@@ -290,11 +294,9 @@ static double check_vertices(const struct posing *posing, int sample, int lowest
     struct rig_pose posed;
     double least = INFINITY, own = NAN;
     assert_true(rig_pose(posing, 0, sample, NULL, &posed));
-    const struct figure *figure = posed.character.figure;
-    for (int v = 0; v < figure->character.vertex_count; v++) {
+    for (int v = 0; v < posed.model.figure->character.vertex_count; v++) {
         float at[3];
-        morph_vertex(figure, &posed.character.morph, v, at, NULL);
-        for (int k = 0; k < 3; k++) at[k] += posed.character.position[k] - (k == 1 ? figure->lo[1] : 0);
+        figure_vertex(&posed.model, v, at);
         least = fmin(least, (double)at[1]);
         if (v == lowest) own = (double)at[1];
         if (v != sample) continue;
@@ -382,12 +384,12 @@ TEST(models_that_do_not_suit_their_scene)
         const bool suits = models_update(models, document, &error);
         if (suits != !rows[r].says[0] || !strstr(error.text, rows[r].says))
             fail_msg("'%s', expected '%s'", error.text, rows[r].says);
-        assert_int_equal(models_figure(models, 0) != NULL, rows[r].has_figure);
-        assert_null(models_figure(models, 1));
+        assert_int_equal(models_figure(models, document, 0) != NULL, rows[r].has_figure);
+        for (int i = 1; i < document->rig_count; i++) assert_null(models_figure(models, document, i));
         models_destroy(models);
         document_destroy(document);
     }
-    assert_null(models_figure(NULL, 0));
+    assert_null(models_figure(NULL, NULL, 0));
 }
 
 /// A model is read once, and again when its file was written anew. Paint on the second of two characters moves that one alone; paint for
@@ -398,16 +400,16 @@ TEST(models_follow_files_and_paint)
     struct models *models = models_create();
     assert_done(models_update(models, document, &error));
     assert_true(models_suit(models, document));
-    const struct figure *plain = models_figure(models, 0);
+    const struct figure *plain = models_figure(models, document, 0);
     const int vertices = plain->character.vertex_count;
     const uint64_t id = plain->id;
-    assert_ptr_equal(models_figure(models, 1), plain);
+    assert_ptr_equal(models_figure(models, document, 1), plain);
     assert_true(edit_paint_new(document, 1, 2, vertices, NULL));
-    struct paint *paint = document->rigs[1]->character.painted;
+    struct paint *paint = document->rigs[1]->model.painted;
     for (int i = 0; i < 2 * vertices; i++) paint->values[i][0] = logf(3);
     models_follow(models, document);
-    assert_ptr_equal(models_figure(models, 0), plain);
-    const struct figure *painted = models_figure(models, 1);
+    assert_ptr_equal(models_figure(models, document, 0), plain);
+    const struct figure *painted = models_figure(models, document, 1);
     assert_near(painted->character.coordinates[1].re[7][1], 3 * plain->character.coordinates[1].re[7][1], 1e-5);
     paint->values[vertices + 7][0] = 0;
     models_follow(models, document);
@@ -416,12 +418,13 @@ TEST(models_follow_files_and_paint)
     models_follow(models, document);
     assert_near(painted->character.coordinates[1].re[7][1], plain->character.coordinates[1].re[7][1], 1e-5);
     assert_done(models_update(models, document, &error));
-    assert_true(models_figure(models, 0)->id == id);
+    assert_true(models_figure(models, document, 0)->id == id);
     write_ball("twins.glb", 0.1f, 2);
     assert_refusal(models_update(models, document, &error), "paint: expected paint for the 2 coordinates of ");
-    assert_true(models_figure(models, 0)->id != id && models_figure(models, 0)->character.vertex_count > vertices);
+    assert_true(models_figure(models, document, 0)->id != id &&
+                models_figure(models, document, 0)->character.vertex_count > vertices);
     models_follow(models, document);
-    assert_ptr_equal(models_figure(models, 1), models_figure(models, 0));
+    assert_ptr_equal(models_figure(models, document, 1), models_figure(models, document, 0));
     models_destroy(models);
     document_destroy(document);
 }
@@ -431,7 +434,7 @@ TEST(a_soft_character_opens_as_a_scene)
 {
     struct document *document;
     assert_done(document = import_scene(write_ball("soft.glb", 0.2f, 2), &error));
-    const struct character_rig *rig = document_character(document, 0);
+    const struct model_rig *rig = &document->rigs[0]->model;
     assert_int_equal(document->spline_count, 1);
     const struct spline *spline = document->splines[0];
     assert_near(spline->parameter[PARAMETER_FREQUENCY].value, 1.23, 1e-12);

@@ -240,7 +240,7 @@ TEST(the_ground_is_below_the_base)
 /// The skin, or what of it has no fur, stays in the box that redraws and cameras go by; returns its lowest point.
 static float assert_holds(const struct rig_pose *fox, const struct pose *of, bool furless)
 {
-    const struct gltf_part *coat = &fox->model.imported->gltf.meshes->parts[0];
+    const struct gltf_part *coat = &fox->imported->gltf.meshes->parts[0];
     float lo[3], hi[3], low = INFINITY;
     int count;
     pose_bounds(of, lo, hi);
@@ -511,7 +511,7 @@ TEST(bounds_hold_the_skin)
         struct pose is = *pose_at(0);
         is.limbs = wild[w];
         fox_move(&wild[w], moved);
-        gltf_pose_world(&fox.model.imported->gltf, moved);
+        gltf_pose_world(&fox.imported->gltf, moved);
         fox.model.pose = moved;
         assert_holds(&fox, &is, true);
         const float root = moved->joints[LIMB_EAR][5], tip = moved->joints[LIMB_EAR_TIP][5];

@@ -161,7 +161,7 @@ static const struct change {
      "r1.channels=[{'spline':'pluck','axis':'side','lag':6.5,'gain':5}]"},
     {small, "tail 9 -1", "r1.channels=[]"},
     {small, "tail t 0; rename 1 other; unrig t; angles other 1 lag 9", "r#=1; r0.name='other'; r0.c1.lag=9"},
-    {soft, "tail b 0; unrig a; unrig b", "r0.type='character'; r1.name='tail'; r1.position.0=1.2"},
+    {soft, "tail b 0; unrig a; unrig b", "r0.type='model'; r1.name='tail'; r1.position.0=1.2"},
     {pinned, "tail t 0", "r2.pins="},
 
     // the gains of all joints together, and the lag from base to tip, stay; arrays are read at the same shares of the length
@@ -187,7 +187,7 @@ static const struct change {
     {pinned, "unpin t 0", "r0.p#=1; r0.p0.frame=30"},
 
     // a character keeps its place among the rigs, and what moves it
-    {soft, "unrig a", "r0.type='character'; r0.model='../models/a.glb'; r0.paint='a.npy'; r0.glow=3"},
+    {soft, "unrig a", "r0.type='model'; r0.model='../models/a.glb'; r0.paint='a.npy'; r0.glow=3"},
     {soft, "drive 1 0 u -2 45", "r1.d0={'name':'up','spline':'u','amplitude':-2,'lag':45,'tint':'red'}"},
     {soft, "drive 1 -1 s 1 0 twist; undrive 1 0",
      "r1.d#=2; r1.d0.name='side'; r1.d1={'name':'twist','spline':'s','amplitude':1,'lag':0}"},
@@ -349,7 +349,7 @@ static const struct refusal {
     {pinned, "pin t 48 1 0 0 0; set up start loop",
      PINS "a frame before 48, because the last frame of a loop repeats the first, got 48"},
 
-    {soft, "drive 0 0 s 1 0 | undrive 0 0", "there is no such character"},
+    {soft, "drive 0 0 s 1 0 | undrive 0 0", "there is no such model"},
     {soft, "drive 1 2 s 1 0 | drive 1 -2 s 1 0 | undrive 1 -1 | undrive 1 2",
      "this character has no such coordinate"},
     {soft, "drive 1 0 2 1 0", SOFT "there is no such spline"},
@@ -420,8 +420,8 @@ WORLD_TEST(paint_is_bounded, world_open_scene(world, json(soft)))
     };
     struct dab dab = {.count = 1};
     assert_refused(world, EDIT(edit_paint, 1, &dab), "this character has no paint yet");
-    assert_refused(world, EDIT(edit_paint, 0, &dab), "there is no such character");
-    assert_refused(world, EDIT(edit_paint_new, 0, 2, 3), "there is no such character");
+    assert_refused(world, EDIT(edit_paint, 0, &dab), "there is no such model");
+    assert_refused(world, EDIT(edit_paint_new, 0, 2, 3), "there is no such model");
     assert_refused(world, EDIT(edit_paint_new, 1, 0, 3), "there is nothing to paint on this character");
     assert_refused(world, EDIT(edit_paint_new, 1, 2, 0), "there is nothing to paint on this character");
     world_must(world, EDIT(edit_paint_new, 1, 2, 3));
@@ -432,13 +432,13 @@ WORLD_TEST(paint_is_bounded, world_open_scene(world, json(soft)))
         if (rows[i].says) assert_refused(world, done, rows[i].says);
         if (!rows[i].says) world_must(world, done);
     }
-    const struct paint *paint = document_character(world->document, 0)->painted;
+    const struct paint *paint = first_model(world->document)->painted;
     for (int n = 0; n < 6; n++) {
         assert_near(paint->values[n][0], n == 0 ? 10 : n == 5 ? -10 : 0, 0);
         assert_near(paint->values[n][1], n == 5 ? 1000 : 0, 0);
     }
     assert_true(history_undo(world->history) && history_undo(world->history));
-    assert_true(paint_is_plain(document_character(world->document, 0)->painted));
+    assert_true(paint_is_plain(first_model(world->document)->painted));
 }
 
 WORLD_TEST(a_place_follows_no_joint, world_open_scene(world, json(small)))

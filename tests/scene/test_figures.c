@@ -17,7 +17,7 @@ static void open_scene(struct figure_scene *s, const char *path)
 {
     *s = (struct figure_scene){.document = document_of_file(path), .models = models_create()};
     assert_done(models_update(s->models, s->document, &error));
-    if (document_character(s->document, 0)) s->figure = models_figure(s->models, 0);
+    s->figure = models_figure(s->models, s->document, document_find_rig(s->document, RIG_MODEL, 0));
     evaluation_update(&s->evaluation, s->document, false);
     for (int i = 0; i < s->evaluation.count; i++) assert_int_equal(s->evaluation.status[i], WIGGLY_OK);
 }
@@ -271,7 +271,7 @@ FIGURE_TEST(figure7)
     assert_true(fabs(body) < 20);
     assert_true(body - left > 35 && body - left < 120);
     assert_true(fabs(left - right) < 15);
-    assert_int_equal(document_character(s->document, 0)->phases, 1);
+    assert_int_equal(first_model(s->document)->phases, 1);
     assert_smooth_phases(s->figure);
     assert_keeps_volume(&s->figure->character);
 }
@@ -283,7 +283,7 @@ static void assert_stands(const struct figure_scene *s)
         const struct rig_pose pose = pose_at(s, i);
         float lo[3], hi[3];
         rig_bounds(&pose, lo, hi);
-        const float x = pose.character.position[0], y = pose.character.position[1];
+        const float x = pose.model.root[12], y = pose.model.ground;
         assert_near((double)lo[1], (double)y, 0.02);
         assert_true(hi[1] < y + 2.0f && hi[1] > y + 1.1f && hi[0] < x + 1.4f && lo[0] > x - 1.4f);
     }
@@ -305,7 +305,7 @@ TEST(characters_stand_on_their_feet)
 /// Eq. 30: one spline of nine knots moves both coordinates, one a quarter of a swing behind the other.
 FIGURE_TEST(character)
 {
-    const struct character_rig *rig = document_character(s->document, 0);
+    const struct model_rig *rig = first_model(s->document);
     assert_int_equal(s->document->spline_count, 1);
     assert_int_equal(s->document->splines[0]->knot_count, 9);
     assert_int_equal(rig->drive_count, 2);

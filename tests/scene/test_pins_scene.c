@@ -148,10 +148,8 @@ static void stage_point(const struct stand *stand, int rig, int point, double fr
     struct rig_pose pose;
     const struct posing posing = opened_posing(&stand->opened);
     assert_true(rig_pose(&posing, rig, document_sample(document_of(stand), frame), NULL, &pose));
-    if (pose.kind == RIG_CHARACTER) {
-        const struct figure *figure = pose.character.figure;
-        morph_vertex(figure, &pose.character.morph, point, at, NULL);
-        for (int k = 0; k < 3; k++) at[k] += pose.character.position[k] - (k == 1 ? figure->lo[1] : 0);
+    if (pose.kind == RIG_MODEL) {
+        figure_vertex(&pose.model, point, at);
     } else {
         memcpy(at, pose.strand.matrix[point + 1] + 12, 3 * sizeof *at);
     }
@@ -496,11 +494,10 @@ static double lowest(const struct stand *stand, int sample)
     double low = INFINITY;
     const struct posing posing = opened_posing(&stand->opened);
     assert_true(rig_pose(&posing, 0, sample, NULL, &pose));
-    const struct figure *figure = pose.character.figure;
-    for (int v = 0; v < figure->character.vertex_count; v++) {
+    for (int v = 0; v < pose.model.figure->character.vertex_count; v++) {
         float at[3];
-        morph_vertex(figure, &pose.character.morph, v, at, NULL);
-        low = fmin(low, (double)(at[1] + pose.character.position[1] - figure->lo[1]));
+        figure_vertex(&pose.model, v, at);
+        low = fmin(low, (double)at[1]);
     }
     return low;
 }
@@ -549,14 +546,14 @@ STAND_TEST(a_floor_above_the_feet_is_refused, *stand = open_floor("free", "", ""
     assert_refused(&world, world_do(&world, "floor creature 0.5"),
                    "creature: floor: expected a height of at most 0, which is what the character stands on, got 0.5");
     assert_reversible(&world, world_do(&world, "floor creature -0.25"));
-    assert_true(document_character(document_of(stand), 0)->floor == -0.25);
+    assert_true(first_model(document_of(stand))->floor == -0.25);
 }
 
 /// A vertex low down that the splines move, and where it is at a sample.
 static int low_vertex(const struct stand *stand, int sample, double at[3])
 {
     int lowest = -1;
-    for (int v = 0; v < models_figure(stand->opened.models, 0)->character.vertex_count; v++) {
+    for (int v = 0; v < models_figure(stand->opened.models, document_of(stand), 0)->character.vertex_count; v++) {
         pin_pull c[2];
         const struct pin_point found = stand_find(stand, 0, v, sample, c);
         if (hypot(c[0][1][0], c[0][1][1]) < 0.05 || (lowest >= 0 && found.at[1] >= at[1])) continue;

@@ -138,14 +138,16 @@ static const struct kept {
     {SPLINES "[]%s}", "%s      'position': 3\n", ""},
     // characters
     {SPLINES "[{'type': 'tail', 'name': 'a'}, {'type': 'character', 'model': '%s'}, {'type': 'tail', 'name': 'b'}]}",
-     "{\n      'type': 'character',\n      'model': '%s',\n", "../models/a.glb"},
+     "{\n      'type': 'model',\n      'model': '%s',\n", "../models/a.glb"},
     {SPLINES "[{'type': 'character', 'model': 'a.glb', 'glow': 3, 'paint': '%s'}]}",
      "'paint': '%s',\n      'glow': 3", "a.npy"},
     {SPLINES "[{'type': 'character', 'model': 'a.glb', 'carpet': 'red', 'floor': %s}]}", "'floor': %s", "-0.5"},
     {SPLINES "[{'type': 'character', 'model': 'a.glb', 'coordinates': [%s]}]}", "'coordinates': [\n        %s\n",
      "{ 'name': 'up', 'spline': 's', 'amplitude': 0.5, 'lag': 30, 'tint': 'red' }"},
     {SPLINES "[{'type': 'character', 'model': 'a.glb', 'coordinates': [{'name': 'up', 'spline': 's'}]}]%s}",
-     "      'type': 'character',\n      'model': 'a.glb',\n      'position': [0, 0, 0],\n      'coordinates': [\n"
+     "      'type': 'model',\n      'model': 'a.glb',\n      'position': [0, 0, 0],\n      'scale': 1,\n      "
+     "'turn': 0,\n"
+     "      'coordinates': [\n"
      "        { 'name': 'up', 'spline': 's', 'amplitude': 1, 'lag': 0 }\n      ]\n    }\n%s",
      ""},
     // equilibria that follow a joint
@@ -428,12 +430,12 @@ TEST_WITH(folder_make, folder_remove, a_scene_saved_elsewhere_finds_its_model)
         "'background': {'file': 'films/walk.mp4'}}"));
     document->folder = strdup(folder);
     assert_done(scene_save(document, path, &error));
-    assert_string_equal(document_character(document, 0)->model, "models/a.glb");
+    assert_string_equal(first_model(document)->model, "models/a.glb");
     struct document *loaded = document_of_file(path);
     assert_file_says(
         loaded, "r0.model='../models/a.glb'; s0.equilibrium.model='../dog.glb'; background.file='../films/walk.mp4'",
         "saved elsewhere");
-    assert_true(path_resolve(loaded->folder, document_character(loaded, 0)->model, absolute));
+    assert_true(path_resolve(loaded->folder, first_model(loaded)->model, absolute));
     assert_string_equal(absolute, folder_path("models/a.glb"));
     document_destroy(document);
     document_destroy(loaded);

@@ -20,7 +20,7 @@ static const char *const missing[] = {
     [NEEDS_SELECTED] = "Select a knot first.",
     [NEEDS_CHOSEN] = "Select a knot or a pin first.",
     [NEEDS_PIN] = "Select a pin first.",
-    [NEEDS_BONE] = "Click a bone of an imported character first.",
+    [NEEDS_BONE] = "Click a bone of a character first.",
     [NEEDS_RIG] = "Add a tail or a character first.",
     [NEEDS_TAIL] = "Add a tail or a chain first.",
     [NEEDS_TWIN] = "Make a chain of bones with a free other side first (ear_L, ear_R).",
@@ -66,11 +66,11 @@ static bool is_met(const struct core *core, enum need need)
     case NEEDS_TWIN:
         return bones_mirrorable(core, 0) >= 0;
     case NEEDS_PINNABLE:
-        return has_tail || document_find_rig(document, RIG_CHARACTER, 0) >= 0;
+        return has_tail || characters_rig(core) >= 0;
     case NEEDS_BODY:
         return document_find_rig(document, RIG_TAIL, 0) >= 0;
     case NEEDS_CHARACTER:
-        return document_find_rig(document, RIG_CHARACTER, 0) >= 0;
+        return characters_rig(core) >= 0;
     case NEEDS_MODEL:
         return document_find_rig(document, RIG_MODEL, 0) >= 0;
     case NEEDS_PAINT:

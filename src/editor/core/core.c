@@ -50,8 +50,9 @@ void core_open(struct core *core)
     core->message = (struct message){0};
     core->serial = document->serial;
 
-    const struct character_rig *character = document_character(document, 0);
-    const int phases = character ? character->phases : -1;
+    int phases = -1;
+    for (int r = -1; phases < 0 && (r = document_next_rig(document, RIG_MODEL, r)) >= 0;)
+        phases = document->rigs[r]->model.phases;
     core->view.on[SWITCH_PHASE_MAP] = phases >= 0;
     core->view.shows_poles = core->view.on[SWITCH_PHASE] = false;
     core->focus.characters = (struct character_view){.axis = phases >= 0 ? phases : 1};

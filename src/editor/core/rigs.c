@@ -1,4 +1,4 @@
-/// Edits of rigs: adding and removing them, bones and chains of imported characters, the selected soft character, pins.
+/// Edits of rigs: adding and removing them, bones and chains of characters, the selected soft character, pins.
 #include "editor/core/rigs.h"
 #include "base/hash.h"
 #include "base/names.h"
@@ -29,12 +29,12 @@ bool rigs_have_bones(const struct core *core)
 
 enum lead rigs_lead(const struct core *core)
 {
-    static const enum rig_kind kinds[] = {
-        [LEAD_TAIL] = RIG_TAIL, [LEAD_CHARACTER] = RIG_CHARACTER, [LEAD_CHAIN] = RIG_CHAIN, [LEAD_MODEL] = RIG_MODEL};
-    enum lead lead = LEAD_TAIL;
-    while (lead < LEAD_MESH && document_next_rig(core->document, kinds[lead], -1) < 0) lead++;
-    if (lead == LEAD_MESH) return LEAD_NOTHING;
-    return lead == LEAD_MODEL && !rigs_have_bones(core) ? LEAD_MESH : lead;
+    const struct document *document = core->document;
+    if (document_next_rig(document, RIG_TAIL, -1) >= 0) return LEAD_TAIL;
+    if (characters_rig(core) >= 0) return LEAD_CHARACTER;
+    if (document_next_rig(document, RIG_CHAIN, -1) >= 0) return LEAD_CHAIN;
+    if (document_next_rig(document, RIG_MODEL, -1) < 0) return LEAD_NOTHING;
+    return rigs_have_bones(core) ? LEAD_MODEL : LEAD_MESH;
 }
 
 bool rigs_have_knots(const struct document *document)
@@ -48,14 +48,10 @@ bool rigs_have_knots(const struct document *document)
 static double place_of(const struct core *core, int rig, double *width)
 {
     const struct rig *at = core->document->rigs[rig];
-    const int number = document_rig_number(core->document, rig);
-    const struct figure *figure = at->kind == RIG_CHARACTER ? models_figure(core->models, number) : NULL;
     const struct imported *imported =
         at->kind == RIG_MODEL ? models_imported(core->models, core->document, rig) : NULL;
     *width = ROOM;
-    if (figure) *width = (double)(figure->hi[0] - figure->lo[0]);
     if (imported) *width = (double)(imported->gltf.hi[0] - imported->gltf.lo[0]) * at->model.scale;
-    if (at->kind == RIG_CHARACTER) return at->character.position[0];
     if (at->kind == RIG_MODEL) return at->model.position[0];
     return at->kind == RIG_TAIL ? at->tail.position[0].value : 0;
 }
@@ -103,9 +99,6 @@ void rigs_copy(struct core *core, int rig)
     copy.pin_count = 0; // pins would drive both
     switch (copy.kind) {
     case RIG_TAIL:
-        break;
-    case RIG_CHARACTER:
-        copy.character.position[0] = place;
         break;
     case RIG_MODEL:
         copy.model.position[0] = place;
@@ -284,7 +277,7 @@ void bones_make_chain(struct core *core, int follow)
     const int node = bones_selected(core, &model);
     const bool has_splines = core->document->spline_count > 0;
     if (node < 0) {
-        core_message(core, false, "Click a bone of an imported character first.");
+        core_message(core, false, "Click a bone of a character first.");
         return;
     }
     const struct chain_wish wish = {
@@ -489,15 +482,32 @@ void bones_make_twin(struct core *core, int chain)
 
 // --- the selected soft character
 
-const struct character_rig *characters_selected(const struct core *core)
+bool rigs_is_soft(const struct core *core, int rig)
 {
-    return document_character(core->document, core->focus.characters.character);
+    const struct rig *at = core->document->rigs[rig];
+    return at->kind == RIG_MODEL && (at->model.drive_count > 0 || models_figure(core->models, core->document, rig));
+}
+
+int characters_rig(const struct core *core)
+{
+    const struct document *document = core->document;
+    const int chosen = document_find_rig(document, RIG_MODEL, core->focus.characters.character);
+    int rig = chosen;
+    if (chosen >= 0 && rigs_is_soft(core, chosen)) return chosen;
+    for (rig = -1; (rig = document_next_rig(document, RIG_MODEL, rig)) >= 0 && !rigs_is_soft(core, rig);) continue;
+    return rig;
+}
+
+const struct model_rig *characters_selected(const struct core *core)
+{
+    const int rig = characters_rig(core);
+    return rig >= 0 ? &core->document->rigs[rig]->model : NULL;
 }
 
 const struct figure *characters_figure(const struct core *core, int *coordinate)
 {
-    const struct character_rig *rig = characters_selected(core);
-    const struct figure *figure = models_figure(core->models, core->focus.characters.character);
+    const struct model_rig *rig = characters_selected(core);
+    const struct figure *figure = models_figure(core->models, core->document, characters_rig(core));
     if (!rig || !figure || core->focus.characters.drive >= rig->drive_count) return NULL;
     *coordinate = figure_find(figure, rig->drives[core->focus.characters.drive].name);
     return *coordinate >= 0 ? figure : NULL;
@@ -531,11 +541,6 @@ void characters_set_brush(struct core *core, bool on)
     core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
 }
 
-int characters_rig(const struct core *core)
-{
-    return document_find_rig(core->document, RIG_CHARACTER, core->focus.characters.character);
-}
-
 bool characters_blank_paint(struct core *core, const struct figure *figure)
 {
     const struct character *character = &figure->character;
@@ -546,7 +551,7 @@ bool characters_blank_paint(struct core *core, const struct figure *figure)
 void characters_clean_paint(struct core *core, int unused)
 {
     int coordinate;
-    const struct character_rig *rig = characters_selected(core);
+    const struct model_rig *rig = characters_selected(core);
     const struct figure *figure = characters_figure(core, &coordinate);
     (void)unused;
     if (!figure || !rig->painted || paint_is_plain(rig->painted)) {

@@ -1,4 +1,4 @@
-/// Edits of rigs: tails, imported characters with their bones and chains, soft characters, pins. Each is one undo step.
+/// Edits of rigs: tails, characters with their bones, chains and paint, pins. Each is one undo step.
 #ifndef EDITOR_CORE_RIGS_H
 #define EDITOR_CORE_RIGS_H
 
@@ -7,19 +7,19 @@
 /// What new users should drag: the first of these kinds the scene has.
 enum lead { LEAD_TAIL, LEAD_CHARACTER, LEAD_CHAIN, LEAD_MODEL, LEAD_MESH, LEAD_NOTHING, LEADS };
 enum lead rigs_lead(const struct core *core);
-/// Whether an imported character has bones to click. One that could not be read counts.
+/// Whether a character has bones to click. One that could not be read counts.
 bool rigs_have_bones(const struct core *core);
 bool rigs_have_knots(const struct document *document);
 
 /// Adds a tail beside the other rigs, bent by the active spline or a new one.
 void rigs_add_tail(struct core *core);
-/// Adds a copy moved by the same splines. An imported character's chains are copied too.
+/// Adds a copy moved by the same splines. A character's chains are copied too.
 void rigs_copy(struct core *core, int rig);
 /// Removes a rig and its chains. Asks whether to delete splines that move nothing else. Splines that follow one of its joints keep their
 /// value at the playhead.
 void rigs_ask_remove(struct core *core, int rig);
 
-// --- bones of imported characters
+// --- bones of characters
 
 /// The character of a model rig, or NULL if its file could not be read.
 const struct imported *bones_character(const struct core *core, int model);
@@ -62,14 +62,16 @@ void bones_make_twin(struct core *core, int chain);
 
 // --- the selected soft character and its brush
 
-const struct character_rig *characters_selected(const struct core *core);
+/// Whether a rig is a character with coordinates, in the scene or in its file.
+bool rigs_is_soft(const struct core *core, int rig);
+/// The rig that is selected, else the first that is soft; −1: there is none. And it.
+int characters_rig(const struct core *core);
+const struct model_rig *characters_selected(const struct core *core);
 const struct coordinate *characters_coordinate(const struct core *core);
 /// The selected character's figure, or NULL, and its coordinate.
 const struct figure *characters_figure(const struct core *core, int *coordinate);
 /// Turns the brush on or off. It stays off unless a character with a coordinate is selected.
 void characters_set_brush(struct core *core, bool on);
-/// Index of the selected character's rig.
-int characters_rig(const struct core *core);
 /// Gives the selected character blank paint of the figure's size. Edits.
 bool characters_blank_paint(struct core *core, const struct figure *figure);
 /// Removes the selected character's paint in one undo step.

@@ -190,10 +190,11 @@ struct subject {
     int rig;
 };
 
-/// The selected soft character and its display. Zero is a valid start.
+/// The selected character and its display. Zero is a valid start.
 struct character_view {
-    int character, drive; ///< selected in the inspector
-    int axis;             ///< axis of the shown phases: x, y, z
+    int character; ///< selected in the inspector: its number among models
+    int drive;     ///< the coordinate's drive
+    int axis;      ///< axis of the shown phases: x, y, z
 };
 
 enum brush_mode {
@@ -209,7 +210,7 @@ enum brush_mode {
 /// The selected bone. It survives undo while its character exists.
 struct bone_selection {
     bool any;
-    int model;     ///< index among imported characters
+    int model;     ///< number among models
     uint64_t file; ///< gltf.id of the file
     int node;
 };

@@ -382,7 +382,8 @@ bool take_is_shown(const struct core *core)
 static bool take_has(const struct rig *now, const struct rig *before)
 {
     if (now->id != before->id || now->kind != before->kind) return false;
-    if (now->kind == RIG_CHARACTER) return strcmp(now->character.model, before->character.model) == 0;
+    if (now->kind == RIG_MODEL && now->model.drive_count > 0)
+        return strcmp(now->model.model, before->model.model) == 0;
     return now->kind != RIG_TAIL || now->tail.joints == before->tail.joints;
 }
 

@@ -473,7 +473,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         const struct rect r = labelled(ui, &rows[1], PAIR_WIDTH, "clip");
         build_text(dialogs, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, clip_field, wish->clip, sizeof wish->clip);
         const int rig = document_next_rig(document, RIG_MODEL, -1);
-        const char *usual = rig >= 0 ? document->rigs[rig]->model.clip : NULL; // of an imported character
+        const char *usual = rig >= 0 ? document->rigs[rig]->model.clip : NULL; // of a character
         if (!wish->clip[0] && ui->focus != ui_id(ui, clip_field))
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual ? usual : "as the scene",
                      theme()->text_dim);
@@ -494,7 +494,9 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
     }
 
     struct rect *row = &rows[2];
-    const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
+    bool morphs = false;
+    for (int r = -1; (r = document_next_rig(document, RIG_MODEL, r)) >= 0;)
+        morphs |= document->rigs[r]->model.drive_count > 0;
     if ((format->choices & CHOICE_CLIPS) && document_find_rig(document, RIG_CHAIN, 0) >= 0)
         build_toggle(ui, row, "export.clips", "all clips", &wish->all_clips);
     if ((format->choices & CHOICE_SIGNED) && morphs)

@@ -29,21 +29,20 @@ static const char *tail_title(struct inspector *in)
 enum {
     TAILS = 1 << RIG_TAIL,
     CHAINS = 1 << RIG_CHAIN,
-    CHARACTERS = 1 << RIG_CHARACTER,
     MODELS = 1 << RIG_MODEL,
     SPLINE = 1 << RIG_KINDS,
     SWING = SPLINE << 1,
+    SOFT = SPLINE << 2, ///< a character with coordinates
 };
 
 /// Without a spline the rigs matter more.
 static bool has_no_spline(const struct core *core) { return core_active_spline(core) == NULL; }
 
-static bool has_bone(const struct core *core)
+static bool has_bone_or_brush(const struct core *core)
 {
-    return has_no_spline(core) || core->focus.bone.any || core->focus.pick.use != BONE_SELECTED;
+    return has_no_spline(core) || core->focus.bone.any || core->focus.pick.use != BONE_SELECTED ||
+           core->focus.brush.on;
 }
-
-static bool has_brush(const struct core *core) { return core->focus.brush.on; }
 
 /// In order. Replays address headers by `name`.
 static const struct section {
@@ -59,11 +58,9 @@ static const struct section {
     {"section.knot", inspector_knot, .titled = inspector_knot_title, .needs = SPLINE},
     {"section.spline", inspector_spline, .title = "Spline", .needs = SPLINE},
     {"section.rigs", inspector_rigs, .title = "Rigs", .shown = has_no_spline},
-    {"section.model", inspector_model, .title = "Imported character", .needs = MODELS, .shown = has_bone},
     {"section.tail", inspector_tail, .titled = tail_title, .needs = TAILS | CHAINS},
-    {"section.character", inspector_character, .title = "Character", .needs = CHARACTERS, .shown = has_brush},
-    {"section.pins", inspector_pins, .title = "Pins", .needs = TAILS | CHAINS | CHARACTERS,
-     .shown = pins_any_selected},
+    {"section.character", inspector_character, .title = "Character", .needs = MODELS, .shown = has_bone_or_brush},
+    {"section.pins", inspector_pins, .title = "Pins", .needs = TAILS | CHAINS | SOFT, .shown = pins_any_selected},
     {"section.advanced", inspector_advanced, .title = "Advanced", .needs = SPLINE, .closed = true},
     {"section.limits", inspector_limits, .title = "Limits and steadiness", .needs = SPLINE, .closed = true},
     {"section.variation", inspector_variation, .title = "Variation", .needs = SWING, .closed = true},
@@ -111,6 +108,7 @@ static bool build_panel(struct inspector *in, struct rect area)
         const struct spline *spline = core_active_spline(core);
         unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
         for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
+        if (characters_rig(core) >= 0) found |= SOFT;
         if (section->needs && !(section->needs & found)) continue;
         if (i >= FIRST && !core->view.on[SWITCH_MORE] && !in->called[i] && !(section->shown && section->shown(core)))
             continue;
@@ -169,7 +167,6 @@ void inspector_reset(struct inspector *in)
     in->listed = 0;
     in->rig = 0;
     in->selected = 0;
-    in->model = 0;
     in->channel = 0;
     memset(in->called, 0, sizeof in->called);
 }
@@ -249,7 +246,7 @@ void inspector_show(struct inspector *in, bool covered)
     const struct bone_selection *bone = &in->core->focus.bone, *seen = &in->seen_bone;
     const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
     in->seen_bone = *bone;
-    if (!same && bone->any) inspector_unfold(in, "section.model");
+    if (!same && bone->any) inspector_unfold(in, "section.character");
     struct drawlist *list = &in->core->list;
     const struct drawlist below = *list;
     bool fits = false;
@@ -961,8 +958,6 @@ void inspector_knot(struct inspector *in)
 
 enum { MAX_PINS = 8 }; ///< listed at once
 
-static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHARACTER ? "vertex" : "joint"; }
-
 enum { ROW_FRAME, ROW_POINT, PIN_ROWS = ROW_POINT + 4 };
 
 static const struct number_row pin_rows[PIN_ROWS] = {
@@ -1016,7 +1011,7 @@ void inspector_pins(struct inspector *in)
         snprintf(name, sizeof name, "pin.%d", row);
         snprintf(remove, sizeof remove, "pin.%d.remove", row);
         snprintf(text, sizeof text, "%.6g: %.*s, %s %d", pin->frame, name_fit(rig_title(rig), 60), rig_title(rig),
-                 word_of(rig), pin->point);
+                 rig_pin_key(rig), pin->point);
         const struct pin_left *way = evaluation_pin(core->evaluation, core->document, place.rig, place.at);
         const double *w = way && way->is_found ? way->way : NULL;
         const double millimetres = w ? 1e3 * sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) : NAN;
@@ -1042,11 +1037,11 @@ void inspector_pins(struct inspector *in)
             number.ui.lowest = core->document->first_frame;
             number.ui.highest = document_frame(core->document, pins_last_sample(core->document, pinned));
         } else if (field == ROW_POINT) {
-            const struct figure *figure = models_figure(core->models, document_rig_number(core->document, owner));
-            number.ui.label = word_of(pinned);
-            number.ui.highest = pinned->kind != RIG_CHARACTER ? bones_joints(core, owner) - 1
-                                : figure                      ? figure->character.vertex_count - 1
-                                                              : 0;
+            const struct figure *figure = models_figure(core->models, core->document, owner);
+            number.ui.label = rig_pin_key(pinned);
+            number.ui.highest = pinned->kind != RIG_MODEL ? bones_joints(core, owner) - 1
+                                : figure                  ? figure->character.vertex_count - 1
+                                                          : 0;
         }
         const struct number_home home = {.of = pins_selected(core, &owner), .set = set_pin};
         const enum ui_change change = inspector_number(in, &number, &home, field, ui_row(ui, UI_ROW));

@@ -1,4 +1,4 @@
-/// The sections on rigs: their list and the menu of additions, tails and chains, soft and imported characters.
+/// The sections on rigs: their list and the menu of additions, tails and chains, characters.
 #include "editor/core/rigs.h"
 #include "base/file.h"
 #include "base/names.h"
@@ -44,8 +44,8 @@ void inspector_find_rig(struct inspector *in)
     if (in->selected < 0) in->selected = 0;
 
     struct character_view *view = &in->core->focus.characters;
-    if (!document_character(in->core->document, view->character)) view->character = 0;
-    const struct character_rig *character = document_character(in->core->document, view->character);
+    if (document_find_rig(in->core->document, RIG_MODEL, view->character) < 0) view->character = 0;
+    const struct model_rig *character = characters_selected(in->core);
     if (character && view->drive >= character->drive_count) view->drive = 0;
 }
 
@@ -61,12 +61,9 @@ static void show_rig(struct inspector *in, int rig)
         in->channel = rig == in->rig ? in->channel : 0;
         in->rig = rig;
         break;
-    case RIG_CHARACTER:
+    case RIG_MODEL:
         core->focus.characters.drive = number == core->focus.characters.character ? core->focus.characters.drive : 0;
         core->focus.characters.character = number;
-        break;
-    case RIG_MODEL:
-        in->model = number;
         break;
     case RIG_KINDS:
         break;
@@ -94,15 +91,13 @@ void inspector_show_spline(struct inspector *in, int spline)
     const int input = input_of(document->rigs[found], spline);
     show_rig(in, found);
     if (is_tail_or_chain(document, found)) in->channel = input;
-    if (document->rigs[found]->kind == RIG_CHARACTER) in->core->focus.characters.drive = input;
+    if (document->rigs[found]->kind == RIG_MODEL) in->core->focus.characters.drive = input;
 }
 
 void inspector_show_rig(struct inspector *in, int rig)
 {
-    static const char *const sections[] = {[RIG_TAIL] = "section.tail",
-                                           [RIG_CHAIN] = "section.tail",
-                                           [RIG_CHARACTER] = "section.character",
-                                           [RIG_MODEL] = "section.model"};
+    static const char *const sections[] = {
+        [RIG_TAIL] = "section.tail", [RIG_CHAIN] = "section.tail", [RIG_MODEL] = "section.character"};
     const struct rig *chosen = in->core->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
     show_rig(in, rig);
@@ -189,7 +184,7 @@ static void choose_added(struct inspector *in, const struct dropdown *list)
     int rigs[MAX_ADDED] = {0}, count = 2;
     for (int r = 0, copies = 0; r < document->rig_count && copies < MAX_COPIES; r++) {
         const char *title = path_name(rig_title(document->rigs[r]));
-        if (document->rigs[r]->kind != RIG_CHARACTER && document->rigs[r]->kind != RIG_MODEL) continue;
+        if (document->rigs[r]->kind != RIG_MODEL) continue;
         snprintf(names[copies], sizeof names[0], "copy.%d", r);
         snprintf(labels[copies], ADDED_LABEL, "One more %.*s", name_fit(title, 80), title);
         items[count] = (struct ui_item){names[copies], labels[copies], 0};
@@ -544,8 +539,7 @@ enum { MAX_COORDINATES = 32 }; ///< coordinates in the add list
 /// Selects a channel and the spline that drives it.
 static void choose_drive(struct inspector *in, int drive)
 {
-    const struct character_view *view = &in->core->focus.characters;
-    const struct character_rig *rig = document_character(in->core->document, view->character);
+    const struct model_rig *rig = characters_selected(in->core);
     core_choose(in->core, rig->drives[drive].spline);
     in->core->focus.characters.drive = drive; // two channels may share a spline
 }
@@ -554,7 +548,7 @@ static void choose_drive(struct inspector *in, int drive)
 static const struct drive *felt_drive(const struct inspector *in)
 {
     const struct character_view *view = &in->core->focus.characters;
-    const struct character_rig *rig = document_character(in->core->document, view->character);
+    const struct model_rig *rig = characters_selected(in->core);
     if (!rig || view->drive >= rig->drive_count) return NULL;
     return rig->drives[view->drive].spline == in->core->focus.active ? &rig->drives[view->drive] : NULL;
 }
@@ -574,8 +568,8 @@ static double get_drive(const struct inspector *in, int which, bool kept, char t
     const int owner = characters_rig(in->core), drive = in->core->focus.characters.drive;
     const struct rig *rig = kept ? take_rig(in->core, owner) : in->core->document->rigs[owner];
     (void)text;
-    if (!rig || drive >= rig->character.drive_count) return NAN;
-    return number_at(&drive_rows[which], &rig->character.drives[drive]);
+    if (!rig || drive >= rig->model.drive_count) return NAN;
+    return number_at(&drive_rows[which], &rig->model.drives[drive]);
 }
 
 /// Edits the selected coordinate's drive.
@@ -625,12 +619,12 @@ static const struct dropdown spline_list = {NAMED("drive.splines", "spline"),
                                             .build = choose_spline};
 
 /// Lists the figure's undriven coordinates; returns how many.
-static int free_coordinates(const struct inspector *in, const struct character_rig *rig,
+static int free_coordinates(const struct inspector *in, const struct model_rig *rig,
                             struct ui_item items[MAX_COORDINATES])
 {
-    const struct figure *figure = models_figure(in->core->models, in->core->focus.characters.character);
+    const struct figure *figure = models_figure(in->core->models, in->core->document, characters_rig(in->core));
     int count = 0;
-    if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
+    if (!figure || rig->drive_count == MODEL_MAX_DRIVES) return 0;
     for (int k = 0; k < figure->character.coordinate_count && count < MAX_COORDINATES; k++) {
         const char *name = figure->character.coordinates[k].name;
         int drive = 0;
@@ -660,7 +654,7 @@ static const struct dropdown add_list = {.name = "drive.add",
                                          .build = add_coordinate};
 
 static const struct number_row floor_rows[] = {
-    {NUMBER_AT(struct rig, character.floor), .undo = "Set floor",
+    {NUMBER_AT(struct rig, model.floor), .undo = "Set floor",
      .ui = {NAMED("floor.height", "height"), .unit = "m", .hint = "No point of the character goes lower", BAR(-1, 0),
             TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3}},
 };
@@ -714,7 +708,7 @@ static void build_brush(struct inspector *in)
     struct brush *brush = &in->core->focus.brush;
     int on = brush->on;
     if (inspector_choice(in, &paint, &on)) characters_set_brush(in->core, on);
-    const struct character_rig *rig = characters_selected(in->core);
+    const struct model_rig *rig = characters_selected(in->core);
     for (size_t i = 0; brush->on && i < sizeof modes / sizeof *modes; i++) {
         const int chosen = (int)brush->mode - (int)modes[i].first;
         int index = chosen >= 0 && chosen < modes[i].row.count ? chosen : -1; // none of another kind
@@ -725,7 +719,8 @@ static void build_brush(struct inspector *in)
     if (inspector_button(in, ui_row(&in->ui, UI_ROW), &clean)) characters_clean_paint(in->core, 0);
 }
 
-void inspector_character(struct inspector *in)
+/// What is soft of the selected character: its channels, floor, phases and paint.
+static void build_soft(struct inspector *in)
 {
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
     static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "On"}};
@@ -733,7 +728,7 @@ void inspector_character(struct inspector *in)
                                       .hint = "Colour each point by its phase along x, y or z", CHOICES(maps)};
     struct character_view *view = &in->core->focus.characters;
     inspector_find_rig(in); // a row may have removed one
-    const struct character_rig *rig = document_character(in->core->document, view->character);
+    const struct model_rig *rig = characters_selected(in->core);
     struct ui_item items[MAX_COORDINATES];
     bool removed = false;
     for (int k = 0; !removed && k < rig->drive_count; k++) {
@@ -780,8 +775,8 @@ void inspector_character(struct inspector *in)
                                .undo = floor ? "Remove floor" : "Set floor", CHOICES(switches)};
     if (inspector_choice(in, &ground, &floor)) {
         struct rig changed = *in->core->document->rigs[owner];
-        changed.character.has_floor = floor;
-        if (floor) changed.character.floor = rig->position[1];
+        changed.model.has_floor = floor;
+        if (floor) changed.model.floor = rig->position[1];
         edit_rig_set(in->core->document, owner, &changed, &in->core->step.error);
     } else if (rig->has_floor) {
         inspector_numbers(in, floor_rows, 1, &(struct number_home){.rig = &owner});
@@ -812,7 +807,7 @@ static int shown_model(const struct inspector *in)
 {
     int model;
     if (bones_selected(in->core, &model) >= 0) return model;
-    model = document_find_rig(in->core->document, RIG_MODEL, in->model);
+    model = document_find_rig(in->core->document, RIG_MODEL, in->core->focus.characters.character);
     return model < 0 ? document_find_rig(in->core->document, RIG_MODEL, 0) : model;
 }
 
@@ -851,7 +846,7 @@ static const struct number_row place[] = {
             TYPED(-36000, 36000), .step = 1}},
 };
 
-void inspector_model(struct inspector *in)
+void inspector_character(struct inspector *in)
 {
     static const struct row buttons[] = {
         {NAMED("bone.chain", "Make chain"),
@@ -865,7 +860,12 @@ void inspector_model(struct inspector *in)
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->core, model);
     const struct model_rig *rig = &in->core->document->rigs[model]->model;
-    in->model = document_rig_number(in->core->document, model);
+    const int number = document_rig_number(in->core->document, model);
+    if (rigs_is_soft(in->core, model) && model == characters_rig(in->core)) {
+        build_soft(in);
+        rig = &in->core->document->rigs[model]->model; // as edited
+        ui_space(ui, 4);
+    }
 
     struct rect r = inspector_labelled(in, "file");
     ui_hint(ui, r, "The glTF file that shows this character");
@@ -878,7 +878,7 @@ void inspector_model(struct inspector *in)
     }
 
     if (shown && shown->gltf.clip_count > 0)
-        inspector_dropdown(in, &clip_list, ui_row(ui, UI_ROW), in->model, rig->clip ? rig->clip : "None", 0);
+        inspector_dropdown(in, &clip_list, ui_row(ui, UI_ROW), number, rig->clip ? rig->clip : "None", 0);
     const int clip = shown ? gltf_find_clip(&shown->gltf, rig->clip) : -1;
     if (clip >= 0) {
         bool loops = clip_play(rig, &shown->gltf.clips[clip]).loops;

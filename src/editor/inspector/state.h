@@ -33,7 +33,6 @@ struct inspector {
     bool called[INSPECTOR_MAX_SECTIONS];  ///< requested sections, shown without More until closed
     int rig, channel;                     ///< the shown tail or chain, and its channel
     int selected;                         ///< row in the list of rigs
-    int model;                            ///< index of the shown imported character among its kind
     double angle_reach[3];                ///< by enum angle_kind: factor on the slider's usual ends
     double ramp_scale[3][2];              ///< by enum angle_kind: lowest and highest angle of the curve
     int joint[3];                         ///< by enum angle_kind: the selected joint
@@ -71,7 +70,6 @@ void inspector_knot(struct inspector *in);
 void inspector_tail(struct inspector *in);
 void inspector_character(struct inspector *in);
 void inspector_pins(struct inspector *in);
-void inspector_model(struct inspector *in);
 void inspector_history(struct inspector *in);
 /// The splines' list, left of the curves.
 void inspector_splines(struct inspector *in);

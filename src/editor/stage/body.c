@@ -721,7 +721,7 @@ static bool find_stand(const struct stage *stage, const struct core *core, int r
 /// Distance along a ray to a fox's body, or INFINITY.
 static float body_distance(struct stage *stage, const struct rig_pose *fox, const float direction[3])
 {
-    const struct gltf *gltf = &fox->model.imported->gltf;
+    const struct gltf *gltf = fox->model.gltf;
     const float *root = fox->model.root;
     const int node = gltf->node_count - 1, count = gltf_vertex_count(gltf, node);
     float(*place)[3] = stage->skin.posed, nearest = INFINITY;
@@ -786,9 +786,9 @@ static bool find_body(void *room, const struct core *core, const struct target *
     if (target->nth >= stage->tail_count || stage->strands[target->nth].model < 0) return false;
     const struct stage_model *fox = &stage->view.models[stage->strands[target->nth].model];
     for (int point = 0; point < 4; point++) {
-        const mat4s moved = mat4_from(fox->pose->joints[point == 1 ? LIMB_HEAD : LIMB_BODY]);
+        const mat4s moved = mat4_from(fox->posed.pose->joints[point == 1 ? LIMB_HEAD : LIMB_BODY]);
         const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
-        const vec3s place = glms_mat4_mulv3(mat4_from(fox->root), at, 1.0f);
+        const vec3s place = glms_mat4_mulv3(mat4_from(fox->posed.root), at, 1.0f);
         if (!stage_project_point(stage, core->view.layout.stage, place.raw, xy)) continue;
         const struct hover hover = stage_hover(room, core, xy[0], xy[1]);
         if (hover.thing == &thing_body && hover.rig == target->rig) return true;
@@ -834,7 +834,7 @@ static enum drag_answer body_event(void *room, struct core *core, const struct e
     if (event->key != 'R')
         return drag_lock_axis(&core->input.drag, &stage->body_drag.axis, event->key) ? DRAG_USED : DRAG_PASSES;
     if (!tail_of(core->document, stage->body_drag.rig)) {
-        core_message(core, false, "An imported character stays in one place for the whole shot. Its clip moves it.");
+        core_message(core, false, "A character stays in one place for the whole shot. Its clip moves it.");
         return DRAG_USED;
     }
     drag_start_moving(core);

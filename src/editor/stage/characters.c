@@ -1,4 +1,4 @@
-/// Soft characters on the stage: posing, the legend of their phases, their floors, and the brush.
+/// Soft characters on the stage: the legend of their phases, their floors, and the brush.
 /// It works like an airbrush: a stroke adds flow × time to every vertex under it.
 #include "base/error.h"
 #include "base/hash.h"
@@ -16,77 +16,29 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { BOUND_STEPS = 30 };
-
 static const float FRONT_SHARE = 0.1f; ///< weight of depth, to prefer front vertices
-
-static void pose_soft(struct stage *stage, const struct core *core, int rig, int n)
-{
-    struct stage_view *view = &stage->view;
-    const struct character_view *how = &core->focus.characters;
-    const struct character_rig *character = &core->document->rigs[rig]->character;
-    const struct posing posing = stage_posing_by_hand(stage);
-    struct rig_pose posed;
-    if (view->character_count == STAGE_MAX_CHARACTERS) return;
-    if (!rig_pose(&posing, rig, core->view.playback.position, NULL, &posed)) return;
-    const struct figure *figure = posed.character.figure;
-    struct stage_character *shown = &view->characters[view->character_count++];
-    *shown = (struct stage_character){
-        .figure = figure, .morph = posed.character.morph, .rig = n, .map_coordinate = -1, .map_axis = how->axis};
-    for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k];
-    const int drive = how->drive < character->drive_count ? how->drive : 0;
-    const bool is_painted = core->focus.brush.on && n == how->character;
-    if ((core->view.on[SWITCH_PHASE_MAP] || is_painted) && character->drive_count > 0)
-        shown->map_coordinate = figure_find(figure, character->drives[drive].name);
-
-    // Shadows under the whole and under each sole.
-    const float width = figure->hi[0] - figure->lo[0], depth = figure->hi[2] - figure->lo[2];
-    const float *p = shown->position;
-    stage_add_blob(view, p[0] + 0.5f * (figure->lo[0] + figure->hi[0]), p[2] + 0.5f * (figure->lo[2] + figure->hi[2]),
-                   0.32f * (width + depth), 0.5f);
-    for (int s = 0; s < FIGURE_SOLES; s++) {
-        const struct sole *sole = &figure->soles[s];
-        if (sole->radius > 0.0f) stage_add_blob(view, p[0] + sole->x, p[2] + sole->z, 1.35f * sole->radius, 0.7f);
-    }
-}
-
-static uint64_t hash_characters(uint64_t sum, const struct stage_view *view)
-{
-    for (int c = 0; c < view->character_count; c++) {
-        const struct stage_character *shown = &view->characters[c];
-        const struct morph *morph = &shown->morph;
-        const int looks[] = {shown->map_coordinate, shown->map_axis};
-        sum = hash_word(hash_word(sum, shown->figure->id), shown->figure->version);
-        sum = hash_bytes(sum, shown->position, sizeof shown->position);
-        sum = hash_bytes(sum, looks, sizeof looks);
-        sum = hash_bytes(sum, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);
-        sum = hash_bytes(sum, morph->weight, (size_t)morph->count * sizeof *morph->weight);
-    }
-    return sum;
-}
-
-const struct stage_kind character_stage = {.pose = pose_soft, .bound_steps = BOUND_STEPS, .hash = hash_characters};
 
 /// The vertex seen at a share of the width and height from the front, at rest.
 bool find_character(void *room, const struct core *core, const struct target *target, float xy[2])
 {
     const struct stage *stage = room;
-    const struct stage_character *shown = stage_character_shown(stage, target->nth);
-    (void)core;
+    const struct stage_model *shown =
+        stage_soft_shown(stage, document_find_rig(core->document, RIG_MODEL, target->nth));
     if (!shown) return false;
-    const float *lo = shown->figure->lo, *hi = shown->figure->hi;
+    const struct figure *figure = shown->posed.figure;
+    const float *lo = figure->lo, *hi = figure->hi;
     const float x = lo[0] + (float)target->number[0] * (hi[0] - lo[0]);
     const float y = lo[1] + (float)target->number[1] * (hi[1] - lo[1]);
     float best = INFINITY, point[3];
     int found = 0;
-    for (int i = 0; i < shown->figure->character.vertex_count; i++) {
-        const float *p = shown->figure->character.position[i];
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        const float *p = figure->character.position[i];
         const float cost = maths_hypotf(p[0] - x, p[1] - y) - FRONT_SHARE * p[2];
         if (!(cost < best)) continue;
         best = cost;
         found = i;
     }
-    stage_vertex(shown->figure, &shown->morph, shown->position, found, point);
+    figure_vertex(&shown->posed, found, point);
     return stage_project_point(stage, stage->view.viewport, point, xy);
 }
 
@@ -167,20 +119,23 @@ struct shown_floor {
 };
 
 /// A shown character's floor and its place on the screen, or NULL.
-static const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
-                                               const struct stage_character *shown, struct shown_floor *floor)
+static const struct model_rig *floors_find(const struct stage *stage, const struct core *core,
+                                           const struct stage_model *shown, struct shown_floor *floor)
 {
-    const struct character_rig *rig = document_character(core->document, shown->rig);
-    if (!rig || !rig->has_floor) return NULL;
+    const struct document *document = core->document;
+    const struct figure *figure = shown ? shown->posed.figure : NULL;
+    if (!figure || shown->rig < 0 || shown->rig >= document->rig_count || !rig_has_floor(document->rigs[shown->rig]))
+        return NULL;
+    const struct model_rig *rig = &document->rigs[shown->rig]->model;
     static const float sides[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    const float *lo = shown->figure->lo, *hi = shown->figure->hi;
+    const float *lo = figure->lo, *hi = figure->hi, scale = (float)rig->scale;
+    const vec3s middle = {{0.5f * (lo[0] + hi[0]), 0, 0.5f * (lo[2] + hi[2])}};
+    const vec3s under = glms_mat4_mulv3(mat4_from(shown->posed.root), middle, 1.0f);
     float nearest = INFINITY;
     for (int i = 0; i < 4; i++) {
         float at[3] = {0, (float)rig->floor, 0};
-        for (int k = 0; k < 3; k += 2) {
-            const float reach = AROUND * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
-            at[k] = shown->position[k] + 0.5f * (lo[k] + hi[k]) + sides[i][k / 2] * reach;
-        }
+        for (int k = 0; k < 3; k += 2)
+            at[k] = under.raw[k] + sides[i][k / 2] * AROUND * scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
         if (!stage_project_point(stage, core->view.layout.stage, at, floor->xy[i])) return NULL;
         const float depth = glms_vec3_distance(vec3_from(stage->view.eye), vec3_from(at));
         if (depth < nearest) nearest = depth, floor->first = i;
@@ -193,8 +148,8 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
     struct hover hover = {.thing = NULL};
     float best = EDGE_REACH;
     if (core->focus.brush.on || core->focus.pick.use != BONE_SELECTED) return hover;
-    for (int c = 0; c < stage->view.character_count; c++) {
-        const struct stage_character *shown = &stage->view.characters[c];
+    for (int m = 0; m < stage->view.model_count; m++) {
+        const struct stage_model *shown = &stage->view.models[m];
         struct shown_floor floor = {0};
         if (!floors_find(stage, core, shown, &floor)) continue;
         for (int side = 1; side < 4; side += 2) { // edges behind the character would block its surface
@@ -204,7 +159,7 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
             if (distance >= best) continue;
             best = distance;
             hover = (struct hover){.thing = &thing_floor, .x = x, .y = y};
-            hover.rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig);
+            hover.rig = shown->rig;
         }
     }
     return hover;
@@ -219,7 +174,7 @@ static void move_floor(void *room, struct core *core)
     struct rig changed = *document->rigs[drag->rig];
     const double height = drag->start - core->input.drag.moved_y / drag->pixels_per_metre;
     const double rounded = core_round(height, 0.5 / drag->pixels_per_metre);
-    changed.character.floor = fmin(rounded, changed.character.position[1]);
+    changed.model.floor = fmin(rounded, changed.model.position[1]);
     edit_rig_set(core->document, drag->rig, &changed, &core->step.error);
 }
 
@@ -227,7 +182,7 @@ static void press_floor(void *room, struct core *core, const struct hover *hover
 {
     struct stage *stage = room;
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = move_floor, .end = stage_click};
-    const struct character_rig *rig = &core->document->rigs[hover->rig]->character;
+    const struct model_rig *rig = &core->document->rigs[hover->rig]->model;
     const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
     const double rise = fmax(maths_cos((double)core->view.camera.elevation), LEAST_RISE);
     core->input.hover = *hover;
@@ -239,9 +194,10 @@ static void press_floor(void *room, struct core *core, const struct hover *hover
 /// The middle of a near edge.
 static bool find_floor(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const struct stage_character *shown = stage_character_shown(room, target->nth);
+    const struct stage_model *shown =
+        stage_soft_shown(room, document_find_rig(core->document, RIG_MODEL, target->nth));
     struct shown_floor floor = {0};
-    if (!shown || !floors_find(room, core, shown, &floor)) return false;
+    if (!floors_find(room, core, shown, &floor)) return false;
     for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
     return true;
 }
@@ -252,7 +208,7 @@ const struct thing thing_floor = {.cursor = CURSOR_VERTICAL,
                                   .press = press_floor,
                                   .name = "floor",
                                   .of = OF_RIG,
-                                  .rig = RIG_CHARACTER,
+                                  .rig = RIG_MODEL,
                                   .find = find_floor,
                                   .missing = "no floor of that character is to be seen"};
 
@@ -263,24 +219,18 @@ static const float FAR_SIDE = 0.35f,
 
 void floors_show(const struct stage *stage, struct core *core)
 {
-    const struct document *document = core->document;
-    for (int c = 0; c < stage->view.character_count; c++) {
-        const struct stage_character *shown = &stage->view.characters[c];
+    for (int m = 0; m < stage->view.model_count; m++) {
+        const struct stage_model *shown = &stage->view.models[m];
         struct shown_floor floor = {0};
-        const struct character_rig *rig = floors_find(stage, core, shown, &floor);
+        const struct model_rig *rig = floors_find(stage, core, shown, &floor);
         if (!rig) continue;
-        const int index = document_find_rig(document, RIG_CHARACTER, shown->rig);
-        const bool is_hot = core->input.hover.thing == &thing_floor && core->input.hover.rig == index;
+        const bool is_hot = core->input.hover.thing == &thing_floor && core->input.hover.rig == shown->rig;
 
-        float lowest = INFINITY, low[3];
-        int found = 0;
-        for (int v = 0; v < shown->figure->character.vertex_count; v++) {
-            float at[3];
-            morph_vertex(shown->figure, &shown->morph, v, at, NULL);
-            if (at[1] < lowest) lowest = at[1], found = v;
-        }
-        stage_vertex(shown->figure, &shown->morph, shown->position, found, low);
-        const float near_enough = TOUCH * (shown->figure->hi[1] - shown->figure->lo[1]);
+        float height = INFINITY, low[3];
+        const int lowest = figure_lowest(&shown->posed, &height);
+        figure_vertex(&shown->posed, lowest < 0 ? 0 : lowest, low);
+        const float near_enough =
+            TOUCH * (float)rig->scale * (shown->posed.figure->hi[1] - shown->posed.figure->lo[1]);
         const float below = (float)rig->floor - low[1];
         const bool is_missed = below > near_enough, is_touched = below > -near_enough;
         const uint32_t color = is_missed    ? theme()->warning
@@ -366,7 +316,7 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
         }
         work->capacity = vertices;
     }
-    return skin_pose(stage, core->focus.characters.character) ? figure : NULL;
+    return skin_pose(stage, characters_rig(core)) ? figure : NULL;
 }
 
 /// Names of strokes, and the modes with Shift and Ctrl.

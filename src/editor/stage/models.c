@@ -1,4 +1,4 @@
-/// Imported characters on the stage: posing, the posed surface of a soft one for hover, and their bones: hover, clicks and drawing.
+/// Characters on the stage: posing, the posed surface of a soft one for hover, and their bones: hover, clicks and drawing.
 #include "base/hash.h"
 #include "base/names.h"
 #include "base/need.h"
@@ -21,19 +21,33 @@ static const float FOOT_HEIGHT = 0.1f, FOOT_RADIUS = 0.085f; ///< shares of the 
 static const float ASIDE = 1.1f;                             ///< share of the character's width
 static const float FOOT_STRENGTH = 0.55f, BODY_STRENGTH = 0.4f;
 
-/// A shadow under the whole, and one under each joint that vertices follow near the ground.
+/// A shadow under the whole, and one under each joint that vertices follow near the ground, or sole of a soft one without joints.
 static void add_shadows(struct stage_view *view, const struct stage_model *shown, const struct skeleton *skeleton)
 {
-    const mat4s root = mat4_from(shown->root);
+    const mat4s root = mat4_from(shown->posed.root);
+    const struct figure *figure = shown->posed.gltf->skin_count == 0 ? shown->posed.figure : NULL;
+    if (figure) {
+        const float scale = glms_vec3_norm(vec3_from(shown->posed.root));
+        const float width = figure->hi[0] - figure->lo[0], depth = figure->hi[2] - figure->lo[2];
+        const vec3s middle = {{0.5f * (figure->lo[0] + figure->hi[0]), 0, 0.5f * (figure->lo[2] + figure->hi[2])}};
+        const vec3s under = glms_mat4_mulv3(root, middle, 1.0f);
+        stage_add_blob(view, under.x, under.z, 0.32f * scale * (width + depth), 0.5f);
+        for (int s = 0; s < FIGURE_SOLES; s++) {
+            const struct sole *sole = &figure->soles[s];
+            const vec3s at = glms_mat4_mulv3(root, (vec3s){{sole->x, 0, sole->z}}, 1.0f);
+            if (sole->radius > 0.0f) stage_add_blob(view, at.x, at.z, 1.35f * scale * sole->radius, 0.7f);
+        }
+        return;
+    }
     const float height = fmaxf(shown->hi[1] - shown->lo[1], 1e-6f);
     const float width = shown->hi[0] - shown->lo[0], depth = shown->hi[2] - shown->lo[2];
     stage_add_blob(view, 0.5f * (shown->lo[0] + shown->hi[0]), 0.5f * (shown->lo[2] + shown->hi[2]),
                    0.28f * (width + depth), BODY_STRENGTH);
     int feet = 0;
-    for (int b = 0; shown->gltf->skin_count > 0 && b < skeleton->own && feet < FEET; b++) {
+    for (int b = 0; shown->posed.gltf->skin_count > 0 && b < skeleton->own && feet < FEET; b++) {
         const int node = skeleton->bones[b].node;
-        const vec3s joint = glms_mat4_mulv3(root, vec3_from(shown->pose->world[node] + 12), 1.0f);
-        const float near = 1.0f - (joint.y - shown->ground) / (FOOT_HEIGHT * height);
+        const vec3s joint = glms_mat4_mulv3(root, vec3_from(shown->posed.pose->world[node] + 12), 1.0f);
+        const float near = 1.0f - (joint.y - shown->posed.ground) / (FOOT_HEIGHT * height);
         if (near <= 0.0f || !skeleton->carries[node]) continue;
         stage_add_blob(view, joint.x, joint.z, FOOT_RADIUS * height, FOOT_STRENGTH * fminf(near, 1.0f));
         feet++;
@@ -44,9 +58,7 @@ struct stage_model *models_show(struct stage_view *view, const struct rig_pose *
 {
     if (view->model_count == STAGE_MAX_MODELS) return NULL;
     struct stage_model *shown = &view->models[view->model_count++];
-    *shown = (struct stage_model){
-        .gltf = &posed->model.imported->gltf, .pose = posed->model.pose, .ground = posed->model.ground};
-    memcpy(shown->root, posed->model.root, sizeof shown->root);
+    *shown = (struct stage_model){.posed = posed->model, .rig = -1, .map_coordinate = -1};
     rig_bounds(posed, shown->lo, shown->hi);
     return shown;
 }
@@ -61,7 +73,7 @@ static float model_aside(const struct core *core, int n)
     return ASIDE * (float)core->document->rigs[rig]->model.scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
 }
 
-static void pose_imported(struct stage *stage, const struct core *core, int rig, int n)
+static void pose_model(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
     struct posing posing = stage_posing_by_hand(stage);
@@ -70,7 +82,16 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     if (!rig_pose_body(&posing, rig, core->view.playback.position, NULL, &posed)) return;
     struct stage_model *shown = models_show(view, &posed);
     if (!shown) return;
-    const struct skeleton *skeleton = &posed.model.imported->skeleton;
+    const struct figure *figure = posed.model.figure;
+    const struct model_rig *model = &core->document->rigs[rig]->model;
+    const struct character_view *how = &core->focus.characters;
+    const int drive = how->drive < model->drive_count ? how->drive : 0;
+    const bool is_painted = core->focus.brush.on && rig == characters_rig(core);
+    shown->rig = rig;
+    shown->map_axis = how->axis;
+    if (figure && (core->view.on[SWITCH_PHASE_MAP] || is_painted) && model->drive_count > 0)
+        shown->map_coordinate = figure_find(figure, model->drives[drive].name);
+    const struct skeleton *skeleton = &posed.imported->skeleton;
     const mat4s to_world = mat4_from(posed.model.root);
     for (int b = 0; b < skeleton->count && stage->bone_count < STAGE_MAX_BONES; b++) {
         const struct bone *bone = &skeleton->bones[b];
@@ -84,7 +105,8 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
             memcpy(added->ends[e], at.raw, sizeof at.raw);
         }
     }
-    shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
+    const float height = figure ? (float)model->scale * (figure->hi[1] - figure->lo[1]) : shown->hi[1] - shown->lo[1];
+    shown->dusk = fmaxf(0.3f * height, 1e-6f);
     add_shadows(view, shown, skeleton);
 
     // The clip without its chains, beside it.
@@ -94,28 +116,38 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     const float by = model_aside(core, n);
     shown = &view->models[view->model_count++];
     *shown = shown[-1];
-    shown->pose = posed.model.pose;
-    shown->root[12] += by;
+    shown->rig = -1;
+    shown->posed.pose = posed.model.pose;
+    shown->posed.morph = posed.model.morph;
+    shown->posed.root[12] += by;
     shown->lo[0] += by;
     shown->hi[0] += by;
-    add_shadows(view, shown, &posed.model.imported->skeleton);
+    add_shadows(view, shown, &posed.imported->skeleton);
 }
 
 static uint64_t hash_models(uint64_t sum, const struct stage_view *view)
 {
     for (int m = 0; m < view->model_count; m++) {
         const struct stage_model *shown = &view->models[m];
-        const struct gltf *gltf = shown->gltf;
+        const struct gltf *gltf = shown->posed.gltf;
+        const struct figure *figure = shown->posed.figure;
+        const struct morph *morph = &shown->posed.morph;
+        const int looks[] = {shown->map_coordinate, shown->map_axis};
         sum = hash_word(sum, gltf->id);
-        sum = hash_bytes(sum, shown->root, sizeof shown->root);
-        sum = hash_bytes(sum, shown->pose->world, (size_t)gltf->node_count * sizeof *shown->pose->world);
-        sum = hash_bytes(sum, shown->pose->weights, (size_t)gltf->weight_count * sizeof *shown->pose->weights);
+        sum = hash_word(hash_word(sum, figure ? figure->id : 0), figure ? figure->version : 0);
+        sum = hash_bytes(sum, looks, sizeof looks);
+        sum = hash_bytes(sum, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);
+        sum = hash_bytes(sum, morph->weight, (size_t)morph->count * sizeof *morph->weight);
+        sum = hash_bytes(sum, shown->posed.root, sizeof shown->posed.root);
+        sum = hash_bytes(sum, shown->posed.pose->world, (size_t)gltf->node_count * sizeof *shown->posed.pose->world);
+        sum = hash_bytes(sum, shown->posed.pose->weights,
+                         (size_t)gltf->weight_count * sizeof *shown->posed.pose->weights);
     }
     return sum;
 }
 
 const struct stage_kind model_stage = {
-    .pose = pose_imported, .bound_steps = BOUND_STEPS, .aside = model_aside, .hash = hash_models};
+    .pose = pose_model, .bound_steps = BOUND_STEPS, .aside = model_aside, .hash = hash_models};
 
 void skin_free(struct skin *skin)
 {
@@ -127,13 +159,14 @@ void skin_reserve(struct stage *stage)
 {
     struct skin *skin = &stage->skin;
     int most = 0;
-    for (int c = 0; c < stage->view.character_count; c++) {
-        const int count = stage->view.characters[c].figure->character.vertex_count;
+    for (int m = 0; m < stage->view.model_count; m++) {
+        const struct figure *figure = stage->view.models[m].posed.figure;
+        const int count = figure ? figure->character.vertex_count : 0;
         most = count > most ? count : most;
     }
     for (int t = 0; t < stage->tail_count; t++) {
         if (stage->strands[t].model < 0) continue;
-        const struct gltf *fox = stage->view.models[stage->strands[t].model].gltf;
+        const struct gltf *fox = stage->view.models[stage->strands[t].model].posed.gltf;
         const int count = gltf_vertex_count(fox, fox->node_count - 1);
         most = count > most ? count : most;
     }
@@ -143,13 +176,22 @@ void skin_reserve(struct stage *stage)
     skin->capacity = most;
 }
 
-bool skin_pose(struct stage *stage, int character)
+const struct stage_model *stage_soft_shown(const struct stage *stage, int rig)
+{
+    for (int m = 0; m < stage->view.model_count; m++) {
+        const struct stage_model *shown = &stage->view.models[m];
+        if (shown->rig == rig && rig >= 0) return shown->posed.figure ? shown : NULL;
+    }
+    return NULL;
+}
+
+bool skin_pose(struct stage *stage, int rig)
 {
     struct skin *skin = &stage->skin;
-    const struct stage_character *shown = stage_character_shown(stage, character);
-    if (!shown || shown->figure->character.vertex_count > skin->capacity) return false;
-    const uint64_t hash = hash_word(hash_word(stage->view.hash, shown->figure->id), (uint64_t)character);
-    if (skin->hash != hash) morph_places(shown->figure, &shown->morph, shown->position, skin->posed);
+    const struct stage_model *shown = stage_soft_shown(stage, rig);
+    if (!shown || shown->posed.figure->character.vertex_count > skin->capacity) return false;
+    const uint64_t hash = hash_word(hash_word(stage->view.hash, shown->posed.figure->id), (uint64_t)rig);
+    if (skin->hash != hash) figure_vertices(&shown->posed, skin->posed, NULL, NULL, NULL);
     skin->hash = hash;
     return true;
 }
@@ -356,7 +398,7 @@ void bones_show(const struct stage *stage, struct core *core)
         for (int m = 0; pose && m < view->model_count; m++) {
             const struct stage_model *model = &view->models[m];
             struct rect box;
-            if (model->pose == pose &&
+            if (model->posed.pose == pose &&
                 (!stage_project_box(stage, place, model->lo, model->hi, &box) ||
                  rect_contains(rect_inset(box, -NEAR_BOX), core->input.pointer_x, core->input.pointer_y)))
                 under = rig;

@@ -224,8 +224,8 @@ int overlay_rig(const struct stage *stage, const struct core *core)
 static int overlay_pose_rig(const struct stage *stage, const struct core *core)
 {
     const struct document *document = core->document;
-    const int first = document_next_rig(document, RIG_CHARACTER, -1);
-    for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r)) {
+    const int first = characters_rig(core);
+    for (int r = -1; (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
         const struct rig *rig = document->rigs[r];
         for (int i = 0; i < rig_input_count(rig); i++) {
             if (rig_input(rig, i) == core->focus.active) return r;
@@ -288,18 +288,17 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
     return true;
 }
 
-/// Outlines a character. Its surface is posed in hover's skin and projected there; hover will pose the skin again.
-static bool show_character(struct stage *stage, struct core *core, const struct rig_pose *pose, int character,
-                           float width, uint32_t color, float tip[2])
+/// Outlines a soft character. Its surface is posed in hover's skin and projected there; hover will pose the skin again.
+static bool show_character(struct stage *stage, struct core *core, const struct rig_pose *pose, float width,
+                           uint32_t color, float tip[2])
 {
-    const struct figure *figure = pose->character.figure;
-    const struct stage_character *shown = stage_character_shown(stage, character);
+    const struct figure *figure = pose->model.figure;
     struct silhouette *silhouette = &stage->silhouette;
     float(*posed)[3] = stage->skin.posed;
-    if (!shown || figure->character.vertex_count > stage->skin.capacity) return false;
+    if (!figure || figure->character.vertex_count > stage->skin.capacity) return false;
     stage->skin.hash = 0;
     silhouette_clear(silhouette);
-    morph_places(figure, &pose->character.morph, shown->position, posed);
+    figure_vertices(&pose->model, posed, NULL, NULL, NULL);
     for (int i = 0; i < figure->character.vertex_count; i++) {
         float xy[2];
         if (!stage_project_point(stage, core->view.layout.stage, posed[i], xy)) return false;
@@ -330,8 +329,7 @@ static bool proxy_show(struct stage *stage, struct core *core, const struct posi
     float points[ANGLES_MAX_JOINTS + 1][2];
     if (!rig_pose(posing, rig, sample + document_delay(posing->document, rig), NULL, &pose)) return false;
     if (pose.kind == RIG_TAIL) return show_tail(stage, core, &pose.strand, width, color, tip);
-    if (pose.kind == RIG_CHARACTER)
-        return show_character(stage, core, &pose, document_rig_number(posing->document, rig), width, color, tip);
+    if (pose.kind == RIG_MODEL) return show_character(stage, core, &pose, width, color, tip);
     if (pose.kind != RIG_CHAIN || pose.strand.count == 0) return false;
     for (int n = 0; n < pose.strand.count; n++) {
         if (!stage_project_point(stage, core->view.layout.stage, pose.strand.matrix[n] + 12, points[n])) return false;
@@ -352,7 +350,7 @@ static void onion_show(struct stage *stage, struct core *core)
     if (spline->knot_count == 0 && track >= 0) spline = document->splines[track]; // its equilibrium's knots
 
     // Samples of the knots nearest to the playhead, nearest first.
-    const int most = document->rigs[rig]->kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
+    const int most = document->rigs[rig]->kind == RIG_MODEL ? CHARACTER_SKINS : MAX_SKINS;
     const double position = core->view.playback.position;
     int samples[MAX_SKINS], count = 0;
     int after = spline_lower_bound(document, spline, (int)ceil(position)), before = after - 1;
@@ -417,8 +415,8 @@ struct rig_point overlay_point(struct stage *stage, const struct core *core)
 {
     const int rig = overlay_rig(stage, core);
     if (rig >= 0) return (struct rig_point){rig, bones_joints(core, rig) - 1};
-    const int n = core->focus.characters.character;
-    const struct figure *figure = models_figure(core->models, n);
+    const int soft = characters_rig(core);
+    const struct figure *figure = models_figure(core->models, core->document, soft);
     if (!figure) return (struct rig_point){-1, -1};
     struct liveliest *kept = &stage->liveliest;
     if (kept->figure != figure->id || kept->version != figure->version) { // search all vertices once
@@ -435,7 +433,7 @@ struct rig_point overlay_point(struct stage *stage, const struct core *core)
             most = fmaxf(most, way);
         }
     }
-    return (struct rig_point){document_find_rig(core->document, RIG_CHARACTER, n), kept->vertex};
+    return (struct rig_point){soft, kept->vertex};
 }
 
 static bool loops(const struct document *document, int spline)
@@ -451,8 +449,7 @@ static bool point_exists(const struct core *core, struct rig_point point)
     const enum rig_kind kind = document->rigs[point.rig]->kind;
     if (point.at < 0) return point.at == POINT_BASE && kind == RIG_TAIL;
     if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(core, point.rig);
-    const int n = document_rig_number(document, point.rig);
-    const struct figure *figure = kind == RIG_CHARACTER ? models_figure(core->models, n) : NULL;
+    const struct figure *figure = models_figure(core->models, document, point.rig);
     return figure && point.at < figure->character.vertex_count;
 }
 
@@ -462,8 +459,8 @@ static bool point_place(const struct core *core, struct rig_point point, double 
     struct rig_pose pose;
     const struct posing posing = stage_posing(core);
     if (!point_exists(core, point) || !rig_pose(&posing, point.rig, position, NULL, &pose)) return false;
-    if (pose.kind == RIG_CHARACTER) {
-        stage_vertex(pose.character.figure, &pose.character.morph, pose.character.position, point.at, place);
+    if (pose.kind == RIG_MODEL) {
+        figure_vertex(&pose.model, point.at, place);
     } else {
         memcpy(place, pose.strand.matrix[point.at + 1] + 12, 3 * sizeof *place);
     }
@@ -566,9 +563,9 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
     const struct stage_view *view = &stage->view;
     struct hover hover = {.thing = NULL};
     float nearest = INFINITY;
-    for (int c = 0; c < view->character_count; c++) {
-        const struct stage_character *shown = &view->characters[c];
-        const struct figure *figure = shown->figure;
+    for (int m = 0; m < view->model_count; m++) {
+        const struct stage_model *shown = &view->models[m];
+        const struct figure *figure = shown->posed.figure;
         struct surface_spot spot;
         float xy[2];
         if (!skin_pose(stage, shown->rig) || !skin_spot(stage, figure, x, y, &spot)) continue;
@@ -576,8 +573,7 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
         for (int k = 1; k < 3; k++) {
             if (spot.weight[k] > spot.weight[corner]) corner = k;
         }
-        const int rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig),
-                  vertex = (int)spot.corner[corner];
+        const int rig = shown->rig, vertex = (int)spot.corner[corner];
         if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame removed it
         const float *place = stage->skin.posed[vertex];
         const float depth = camera_depth(view->view, view->eye, place);
@@ -587,8 +583,10 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
 
         // The vertex's movement per unit of the coordinates, squared, relative to the largest movement along each axis.
         float own = 0, most = 0;
-        for (int k = 0; k < shown->morph.count; k++) {
-            const int n = shown->morph.coordinate[k];
+        const struct model_rig *driven = &core->document->rigs[rig]->model;
+        for (int k = 0; k < driven->drive_count; k++) {
+            const int n = figure_find(figure, driven->drives[k].name);
+            if (n < 0) continue;
             const struct coordinate *moves = &figure->character.coordinates[n];
             own += glms_vec3_norm2(vec3_from(moves->re[vertex])) + glms_vec3_norm2(vec3_from(moves->im[vertex]));
             most += glms_vec3_norm2(vec3_from(figure->largest[n]));
@@ -740,7 +738,7 @@ const struct thing thing_point = {
     .press = press_pin,
     .name = "character",
     .of = OF_RIG,
-    .rig = RIG_CHARACTER,
+    .rig = RIG_MODEL,
     .numbers = 2,
     .find = find_character,
     .missing = "that character is not to be seen"};

@@ -284,22 +284,6 @@ double stage_along(double across, double up, double dx, double dy)
     return (dx * across - dy * up) / fmax(across * across + up * up, LEAST_AXIS * LEAST_AXIS);
 }
 
-const struct stage_character *stage_character_shown(const struct stage *stage, int character)
-{
-    for (int c = 0; c < stage->view.character_count; c++) {
-        const struct stage_character *shown = &stage->view.characters[c];
-        if (shown->rig == character) return shown;
-    }
-    return NULL;
-}
-
-void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
-                  float place[3])
-{
-    morph_vertex(figure, morph, vertex, place, NULL);
-    for (int k = 0; k < 3; k++) place[k] += position[k] - (k == 1 ? figure->lo[1] : 0.0f);
-}
-
 /// Initial azimuth in radians. A character, facing +z, is seen slightly from the side. Animals are seen
 /// FROM_BEHIND off straight behind, which shows tail and ears.
 static const float AZIMUTH = -1.13f, FROM_BEHIND = 0.87f;
@@ -339,9 +323,7 @@ void stage_fit(struct stage *stage, struct core *core)
         }
     }
     core->view.camera = camera_default();
-    if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
-        core->view.camera.azimuth = AZIMUTH;
-    else if (seen[RIG_MODEL] && !seen[RIG_TAIL]) { // as the first one stands
+    if (seen[RIG_MODEL] && !seen[RIG_TAIL]) { // as the first one stands
         const int rig = document_next_rig(document, RIG_MODEL, -1);
         const struct imported *first = models_imported(core->models, document, rig);
         float back[2];
@@ -397,7 +379,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     core->view.refit_stage = false;
     struct stage_view *view = &stage->view;
     const struct document *document = core->document;
-    stage->tail_count = view->character_count = view->model_count = view->blob_count = 0;
+    stage->tail_count = view->model_count = view->blob_count = 0;
     stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         int n = 0;
@@ -429,9 +411,8 @@ void stage_show(struct stage *stage, struct core *core)
 {
     const struct stage_view *view = &stage->view;
     struct rect clip = drawlist_push_clip(&core->list, view->viewport);
-    if (stage->tail_count == 0 && view->character_count == 0 && view->model_count == 0) {
-        const bool is_missing =
-            document_character(core->document, 0) || document_find_rig(core->document, RIG_MODEL, 0) >= 0;
+    if (stage->tail_count == 0 && view->model_count == 0) {
+        const bool is_missing = document_find_rig(core->document, RIG_MODEL, 0) >= 0;
         const char *text = is_missing ? "wiggly could not read this scene's character. Its curves are below."
                            : core->focus.active < 0 ? "This scene is empty."
                                                     : "This scene has no tail. Its curves are below.";

@@ -51,7 +51,7 @@ struct shown_strand {
     struct pose pose;
 };
 
-/// A bone of an imported character, as last posed.
+/// A bone of a character, as last posed.
 struct shown_bone {
     int model;        ///< rig
     struct bone part; ///< as the skeleton has it
@@ -74,7 +74,7 @@ struct tail_drag {
 
 /// The held body, and how pointer movement maps to the ground or upwards.
 struct body_drag {
-    int rig;                        ///< tail or imported character
+    int rig;                        ///< tail or character
     bool begun;                     ///< the pointer has moved
     bool lifts;                     ///< moving up the screen lifts the body, instead of moving it away
     int axis;                       ///< locked axis; −1: none
@@ -257,13 +257,10 @@ void stage_click(void *room, struct core *core, bool keep);
 double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3]);
 /// How far the pointer's movement goes along an axis whose unit is (across, up) on the screen.
 double stage_along(double across, double up, double dx, double dy);
-/// A character as shown (by its number in the document). NULL if not shown.
-const struct stage_character *stage_character_shown(const struct stage *stage, int character);
-/// World position of a vertex of a character that stands at `position`.
-void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
-                  float place[3]);
+/// A soft character as shown, by its rig. NULL if not shown.
+const struct stage_model *stage_soft_shown(const struct stage *stage, int rig);
 
-/// Shows an imported character, or a tail's fox. NULL if the view is full.
+/// Shows a character, or a tail's fox. NULL if the view is full.
 struct stage_model *models_show(struct stage_view *view, const struct rig_pose *posed);
 
 /// A rig's strand as last shown, or NULL.
@@ -385,8 +382,8 @@ static inline float segment_nearest(const float a[2], const float b[2], const fl
 void skin_free(struct skin *skin);
 /// Memory for the largest shown surface; allocates only if it grows.
 void skin_reserve(struct stage *stage);
-/// Poses a character's surface (by its number in the document), unless done already. False if not shown.
-bool skin_pose(struct stage *stage, int character);
+/// Poses a soft character's surface, unless done already. False if not shown.
+bool skin_pose(struct stage *stage, int rig);
 /// The posed figure's surface point at a point of the stage; false if none.
 bool skin_spot(const struct stage *stage, const struct figure *figure, float x, float y, struct surface_spot *spot);
 
