@@ -73,8 +73,8 @@ static inline void beast_box(const struct beast_bone *bones, int bone, float cor
     for (int i = 0; i < 36; i++) index[i] = (uint16_t)(faces[i] + 8 * bone);
 }
 
-/// Returns false if the file cannot be written.
-static inline bool beast_write(const char *path)
+/// Returns false if the file cannot be written. A soft one has the coordinate "belly", whose real part its Walk moves, and the shape "grin".
+static inline bool beast_write_as(const char *path, bool soft)
 {
     static struct builder b;
     static char members[1 << 13], glb[1 << 16];
@@ -113,16 +113,34 @@ static inline bool beast_write(const char *path)
     ADD(&b, FLOAT, float, 4, 0, 0, 0, 1, 0, 0.12f, 0, 0.9928f, 0, 0, 0, 1, 0, -0.12f, 0, 0.9928f, 0, 0, 0, 1);
     ADD(&b, FLOAT, float, 4, 0, 0, 0, 1, 0.12f, 0, 0, 0.9928f, 0, 0, 0, 1, -0.12f, 0, 0, 0.9928f, 0, 0, 0, 1);
     ADD(&b, FLOAT, float, 3, 0, 0.55f, -0.3f, 0, 0.57f, -0.3f, 0, 0.55f, -0.3f, 0, 0.57f, -0.3f, 0, 0.55f, -0.3f);
+    static const char *const more[] = {
+        ",'targets':[{'POSITION':9},{'POSITION':10},{'POSITION':11}]",
+        ",'extras':{'targetNames':['belly.re','grin','belly.im'],'wiggly':{'coordinates':[{'name':'belly',"
+        "'frequency':2,'damping':0.1,'scale':2}]}}",
+        ",{'sampler':2,'target':{'node':25,'path':'weights'}}", ",{'input':5,'output':12}"};
+    if (soft) {
+        static float target[3][8 * BEAST_BONES][3], keys[5][3];
+        for (int c = 0; c < 8 * BEAST_BONES; c++) { // what is low swings most, what is at the back later
+            const float *p = position[c], low = 0.7f - p[1], turn = 2 * p[2];
+            target[0][c][0] = 0.2f * low * cosf(turn), target[2][c][0] = -0.2f * low * sinf(turn);
+            target[0][c][1] = 0.1f * low * sinf(turn), target[2][c][1] = 0.1f * low * cosf(turn);
+            target[1][c][2] = c % 2 ? 0.05f : 0;
+        }
+        for (int k = 0; k < 5; k++) keys[k][0] = 0.1f * (float)(k % 2), keys[k][1] = 0.25f * (float)(k % 4);
+        for (int t = 0; t < 3; t++) add_data(&b, FLOAT, "VEC3", 8 * BEAST_BONES, target[t], sizeof target[t]);
+        add_data(&b, FLOAT, "SCALAR", 15, keys, sizeof keys);
+    }
+#define MORE(n) (soft ? more[n] : "")
     sprintf(
         end,
         "{'name':'skin','mesh':0,'skin':0}],'skins':[{'inverseBindMatrices':0,'joints':[%s]}],"
         "'materials':[{'doubleSided':true,'pbrMetallicRoughness':{'baseColorFactor':[0.55,0.42,0.3,1]}}],"
         "'meshes':[{'primitives':[{'attributes':{'POSITION':1,'JOINTS_0':2,'WEIGHTS_0':3},'indices':4,"
-        "'material':0}]}],'animations':[{'name':'Walk','channels':[{'sampler':0,'target':{'node':0,"
-        "'path':'rotation'}},{'sampler':1,'target':{'node':0,'path':'translation'}}],'samplers':["
-        "{'input':5,'output':6},{'input':5,'output':8}]},{'name':'Nod','channels':[{'sampler':0,'target':{'node':3,"
+        "'material':0%s}]%s}],'animations':[{'name':'Walk','channels':[{'sampler':0,'target':{'node':0,"
+        "'path':'rotation'}},{'sampler':1,'target':{'node':0,'path':'translation'}}%s],'samplers':["
+        "{'input':5,'output':6},{'input':5,'output':8}%s]},{'name':'Nod','channels':[{'sampler':0,'target':{'node':3,"
         "'path':'rotation'}}],'samplers':[{'input':5,'output':7}]}]",
-        list);
+        list, MORE(0), MORE(1), MORE(2), MORE(3));
     snprintf(b.json, sizeof b.json,
              "{'asset':{'version':'2.0'},'buffers':[{'byteLength':%zu}],'bufferViews':[%s],'accessors':[%s],%s}",
              b.size, b.views, b.accessors, members);
@@ -131,5 +149,7 @@ static inline bool beast_write(const char *path)
     const bool done = out && fwrite(glb, 1, size, out) == size;
     return out && fclose(out) == 0 && done;
 }
+
+static inline bool beast_write(const char *path) { return beast_write_as(path, false); }
 
 #endif

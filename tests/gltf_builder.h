@@ -9,7 +9,7 @@
 enum { BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126 };
 
 struct builder {
-    unsigned char bytes[1 << 14];
+    unsigned char bytes[1 << 15];
     size_t size;
     char views[1 << 13], accessors[1 << 13], json[1 << 16];
     int view_count, accessor_count;

@@ -229,6 +229,9 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
             if (is_new) body->node[form->joint_count++] = bones.node[n];
         }
     }
+    const struct figure *figure = pose->model.figure;
+    body->soft = figure && model->drive_count > 0 ? figure->character.node : -1;
+    if (body->soft >= 0) form->target_count = gltf->meshes[gltf->nodes[body->soft].mesh].target_count;
     int most = 0;
     body->holder = -1;
     for (int n = 0; n < gltf->node_count; n++) {
@@ -249,6 +252,9 @@ static void model_key(const struct form *form, const struct rig_pose *pose, stru
     memset(key->translation, 0, sizeof key->translation);
     for (int j = 0; j < form->joint_count; j++)
         memcpy(key->rotation[j], now->place[body->node[j]].rotation, sizeof key->rotation[j]);
+    if (body->soft >= 0)
+        memcpy(key->weight, now->weights + body->gltf->nodes[body->soft].first_weight,
+               (size_t)form->target_count * sizeof *key->weight);
 }
 
 /// Node by node, each vertex of the file once.

@@ -179,6 +179,7 @@ struct model_body {
     const struct gltf *gltf;
     const struct gltf_clip *clip; ///< the clip that plays, or NULL
     int *node;                    ///< of each joint
+    int soft;                     ///< the node whose morph weights drives move, −1: none. The form's targets are all of its mesh
     int holder;                   ///< the node that has all vertices, −1: none or several
     float (*posed)[3];            ///< room for a node's vertices
 };

@@ -314,13 +314,13 @@ static int compare_times(const void *a, const void *b)
     return (one->at > other->at) - (one->at < other->at);
 }
 
-static bool is_bone(const struct form *form, json_int_t node)
+/// Whether splines move a node in this way: the bones of chains, and the morph weights of what is soft.
+static bool is_moved(const struct form *form, json_int_t node, enum gltf_path path)
 {
     const struct model_body *body = form->owned;
-    for (int j = 0; j < form->joint_count; j++) {
-        if (body->node[j] == node) return true;
-    }
-    return false;
+    bool moved = path == GLTF_WEIGHTS && node >= 0 && node == body->soft;
+    for (int j = 0; j < form->joint_count && path == GLTF_ROTATION; j++) moved |= body->node[j] == node;
+    return moved;
 }
 
 // --- other channels, where the part is not the clip
@@ -459,12 +459,33 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
     pool_free(&pool);
 }
 
-/// The node and path that a channel moves are those of a chain's bone.
-static bool is_chains(const struct form *form, const json_t *channel)
+/// Whether splines move what a channel does.
+static bool is_splines(const struct form *form, const json_t *channel)
 {
     const json_t *target = json_object_get(channel, "target");
     const char *path = json_string_value(json_object_get(target, "path"));
-    return path && strcmp(path, "rotation") == 0 && is_bone(form, glb_integer(target, "node", -1));
+    int p = GLTF_TRANSLATION;
+    while (path && p < GLTF_WEIGHTS && strcmp(paths[p].name, path) != 0) p++;
+    return path && is_moved(form, glb_integer(target, "node", -1), (enum gltf_path)p);
+}
+
+/// Lets a sampler move a node, in the channel that the clip has for that, or a new one.
+static void put_sampler(struct gltf_motion *motion, const struct form *form, json_int_t node, enum gltf_path path,
+                        json_int_t sampler)
+{
+    json_t *channel;
+    size_t i;
+    bool found = false;
+    json_array_foreach(motion->channels, i, channel)
+    {
+        const json_t *target = json_object_get(channel, "target");
+        const char *own = json_string_value(json_object_get(target, "path"));
+        if (!is_splines(form, channel) || glb_integer(target, "node", -1) != node) continue;
+        if (strcmp(own, paths[path].name) != 0) continue;
+        gltf_set(motion->file, channel, "sampler", json_integer(sampler));
+        found = true;
+    }
+    if (!found) add_channel(motion, node, path, sampler);
 }
 
 // --- the clip
@@ -482,8 +503,8 @@ static bool collect_clip_keys(struct export_range *range, struct form *form, con
     for (int k = 0; k < range->key_count; k++) add_time(&times, part, range_frame(range, k) / fps, false);
     for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
         const struct gltf_channel *channel = &body->clip->channels[c];
-        if (channel->path != GLTF_ROTATION || !is_bone(form, channel->node)) continue;
-        // The bone's own keys, so that none between two frames is lost. A step has a key just before it.
+        if (!is_moved(form, channel->node, channel->path)) continue;
+        // Its own keys, so that none between two frames is lost. A step has a key just before it.
         for (int round = part->rounds[0]; round <= part->rounds[1]; round++) {
             for (int k = 0; k < channel->key_count; k++) {
                 const double at = (double)channel->times[k] + round * part->play.length;
@@ -584,7 +605,7 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
         {
             const char *path = json_string_value(json_object_get(json_object_get(channel, "target"), "path"));
             const size_t s = (size_t)glb_integer(channel, "sampler", -1);
-            if (s >= samplers || done[s] || is_chains(form, channel)) continue;
+            if (s >= samplers || done[s] || is_splines(form, channel)) continue;
             done[s] = true;
             cut_sampler(file, &stored, json_array_get(motion.samplers, s), path && strcmp(path, "rotation") == 0,
                         &part);
@@ -597,19 +618,12 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
         }
     }
 
-    // The keys turn the bones of chains, in the channels that the clip has for them, or new ones.
-    for (int j = 0; j < form->joint_count; j++) {
-        const json_int_t sampler = add_column_sampler(&motion, GLTF_ROTATION, &keys, keys_rotation(j), 4);
-        bool found = false;
-        json_array_foreach(motion.channels, i, channel)
-        {
-            if (!is_chains(form, channel)) continue;
-            if (glb_integer(json_object_get(channel, "target"), "node", -1) != body->node[j]) continue;
-            gltf_set(file, channel, "sampler", json_integer(sampler));
-            found = true;
-        }
-        if (!found) add_channel(&motion, body->node[j], GLTF_ROTATION, sampler);
-    }
+    for (int j = 0; j < form->joint_count; j++)
+        put_sampler(&motion, form, body->node[j], GLTF_ROTATION,
+                    add_column_sampler(&motion, GLTF_ROTATION, &keys, keys_rotation(j), 4));
+    if (body->soft >= 0)
+        put_sampler(&motion, form, body->soft, GLTF_WEIGHTS,
+                    add_column_sampler(&motion, GLTF_WEIGHTS, &keys, keys_weight(&keys, 0), form->target_count));
 
     // The matrices of nodes that the clip moves are split, because glTF does not allow it to move a matrix.
     json_array_foreach(motion.channels, i, channel)
@@ -767,7 +781,7 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     struct rig_pose pose;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
     const struct model_body *body = form.owned;
-    const bool has_clip = form.joint_count > 0, binary = range->format->is_binary;
+    const bool has_clip = form.joint_count > 0 || body->soft >= 0, binary = range->format->is_binary;
     bool done = range_pose(range, range->rigs[0], 0, &pose, error);
     const float *root = done ? range_root(range, range->rigs[0], &pose) : NULL;
     if (!done || !glb_open(&source, body->gltf->path, error)) {
@@ -832,10 +846,14 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     gltf_file_free(&to);
     glb_close(&source);
     if (has_clip) {
-        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains in %d clip%s, %ld keys%s", form.joint_count,
-                 clips, clips == 1 ? "" : "s", range->total, was_packed ? ", meshes decompressed" : "");
+        char bones[32] = "", targets[32] = "";
+        if (form.joint_count > 0) snprintf(bones, sizeof bones, "%d bones bent by chains", form.joint_count);
+        if (body->soft >= 0)
+            snprintf(targets, sizeof targets, "%s%d morph targets", bones[0] ? ", " : "", form.target_count);
+        snprintf(range->summary, FORMAT_SUMMARY, "%s%s in %d clip%s, %ld keys%s", bones, targets, clips,
+                 clips == 1 ? "" : "s", range->total, was_packed ? ", meshes decompressed" : "");
     } else {
-        snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no chain moves it",
+        snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no spline moves it",
                  was_packed ? "meshes decompressed, " : "");
     }
     form_close(&form);
