@@ -9,8 +9,10 @@
 #include "model/gltf.h"
 #include "model/motion.h"
 #include "model/vector.h"
+#include "puppet.h"
 #include "rig/models.h"
 #include <dirent.h>
+#include <jansson.h>
 
 /// An open, solved scene with its models loaded.
 struct opened {
@@ -28,6 +30,23 @@ static inline struct opened open_scene(const char *path)
     assert_done(models_update(scene.models, scene.document, &error));
     evaluation_update(&scene.evaluation, scene.document, false);
     return scene;
+}
+
+/// assets/scenes/character.json with curved coordinates, in the test's folder.
+static inline struct opened open_curved(void)
+{
+    struct character creature;
+    json_t *scene = json_load_file("assets/scenes/character.json", 0, NULL);
+    char path[128];
+    assert_done(character_read("assets/models/creature.glb", &creature, &error));
+    for (int k = 0; k < creature.coordinate_count; k++) puppet_curve(&creature, k, 0.02, 0.8);
+    puppet_write(&creature, folder_path("curved.glb"));
+    json_object_set_new(json_array_get(json_object_get(scene, "rigs"), 0), "model", json_string("curved.glb"));
+    char *text = json_dumps(scene, 0);
+    snprintf(path, sizeof path, "%s", folder_file("curved.json", text));
+    free(text);
+    json_decref(scene);
+    return open_scene(path);
 }
 
 static inline struct posing *posing_of(struct opened *scene)

@@ -55,6 +55,22 @@ static inline struct character puppet_character(float cell, int coordinates)
     return puppet_solid(&ball, lo, hi, cell, coordinates);
 }
 
+/// Makes a coordinate curved, differently at every vertex and up to `most`.
+static inline void puppet_curve(struct character *character, int coordinate, double size, double most)
+{
+    struct coordinate *c = &character->coordinates[coordinate];
+    assert_true(character_curve(character, coordinate));
+    c->most = most;
+    for (int p = COORDINATE_STRAIGHT; p < COORDINATE_PARTS; p++) {
+        for (int i = 0; i < 3 * character->vertex_count; i++) {
+            const float *at = character->position[i / 3];
+            c->parts[p][i / 3][i % 3] =
+                (float)(size *
+                        sin(p * (double)at[i % 3] + (double)(3 * at[(i + 1) % 3] * at[(i + p) % 3]) + p * (i % 3)));
+        }
+    }
+}
+
 /// Writes and frees it.
 static inline void puppet_write(struct character *character, const char *path)
 {

@@ -141,25 +141,29 @@ def soft_characters():
         bpy.ops.mesh.primitive_cube_add()
         cube = bpy.context.object
         cube.shape_key_add(name='Basis')
-        names = ['up.re', 'up.im', 'side.re', 'side.im'] + ['up.-re', 'up.-im', 'side.-re', 'side.-im'] * halved
+        names = ['up.re', 'up.im', 'up.sq', 'up.re2', 'up.im2', 'side.re', 'side.im']
+        names += ['up.-re', 'up.-im', 'up.-re2', 'up.-im2', 'side.-re', 'side.-im'] * halved
         for name in names:
             cube.shape_key_add(name=name).value = 0
-        cube.data['wiggly'] = {'coordinates': [{'name': 'up', 'frequency': 3.25, 'damping': 0.0625}]}
+        cube.data['wiggly'] = {'coordinates': [{'name': 'up', 'frequency': 3.25, 'damping': 0.0625, 'scale': 2.0, 'most': 1.5}]}
         bpy.ops.wiggly.shapes()
         keys = cube.data.shape_keys
         spline = keys.wiggly.splines['wiggle up']
         ok('a spline for each pair', len(keys.wiggly.splines) == 2)
         ok('the frequency that wiggly found', (spline.frequency, spline.damping) == (3.25, 0.0625))
         key(keys, spline.name, (10, 1), (22, -0.6))
-        off, most = 0, 0
+        off, most, far = 0, 0, 0
         for frame in range(1, 40):
             bpy.context.scene.frame_set(frame)
             seen = keys.evaluated_get(bpy.context.evaluated_depsgraph_get())
-            for part in ('re', 'im'):
-                value = seen.key_blocks[f'up.{part}'].value - (seen.key_blocks[f'up.-{part}'].value if halved else 0)
-                want = curves.part(keys, spline, part).evaluate(frame)
+            re, im = (curves.part(keys, spline, part).evaluate(frame) for part in ('re', 'im'))
+            z = 2 * complex(re, im)
+            square = z * z / abs(z) ** 2 * 1.5 * (2 * abs(z) - 1.5) if abs(z) > 1.5 else z * z
+            for part, want in (('re', re), ('im', im), ('sq', abs(square) / 2), ('re2', square.real / 2), ('im2', -square.imag / 2)):
+                value = seen.key_blocks[f'up.{part}'].value - (seen.key_blocks[f'up.-{part}'].value if halved and part != 'sq' else 0)
                 off, most = max(off, abs(value - want)), max(most, -want)
-        ok('pairs of shape keys swing' + ', in halves' * halved, off < 1e-5 and most > 0.3, off, most)
+            far = max(far, abs(z))
+        ok('pairs of shape keys swing' + ', in halves' * halved, off < 1e-5 and most > 0.3 and far > 1.5, off, most, far)
         bpy.ops.wiggly.shapes(remove=True)
         ok('Remove leaves nothing', not keys.animation_data and not list(keys.keys()))
 

@@ -97,9 +97,13 @@ def make_keys(owner, path, index):
     bake.write(owner, path, index, frames, values)
 
 
-# --- complex shapes: pairs of shape keys such as up.re and up.im, perhaps with mirrored ones, up.-re and up.-im, because values may be kept ≥ 0
+# --- complex shapes: pairs of shape keys such as up.re and up.im, perhaps with curves, up.sq, up.re2 and up.im2, and with mirrored ones, up.-re and
+# up.-im, because values may be kept ≥ 0
 
 PAIRS = 'key_blocks'  # as the path of a spline that moves a pair; `joint` is the pair's name
+
+
+CURVES = {'sq': 'v1*v1+v2*v2', 're2': 'v1*v1-v2*v2', 'im2': '-2*v1*v2'}  # |z|², Re z² and −Im z²
 
 
 def pairs_of(keys):
@@ -107,16 +111,25 @@ def pairs_of(keys):
 
 
 def parts_of(keys, name):
-    """Shape keys of a pair: part of the spline, sign, key, whether the other sign has its own."""
-    for part in ('re', 'im'):
+    """Shape keys of a pair: part of the spline or its curves, sign, key, whether the other sign has its own."""
+    for part in ('re', 'im', *(CURVES if all(f'{name}.{part}' in keys.key_blocks for part in CURVES) else ())):
         plus, minus = keys.key_blocks[f'{name}.{part}'], keys.key_blocks.get(f'{name}.-{part}')
         yield part, 1, plus, bool(minus)
         if minus:
             yield part, -1, minus, True
 
 
+def curve_by(keys, path, spline, part, known):
+    """Drives a curve's key: beyond `most` it grows linearly. Keys of an export are `scale` times as large as those of a character's own file."""
+    scale, most = known.get('scale', 1), known.get('most', 0)
+    straight = f'*(1-pow(max(0,1-{most / scale:.9g}/max(1e-9,sqrt(v1*v1+v2*v2))),2))' if most else ''
+    driver = chains.drive_by(keys, path, -1, [(spline, 're', 1), (spline, 'im', 1)])
+    driver.expression = f'{scale:.9g}*({CURVES[part]}){straight}'
+    return driver
+
+
 def add_pairs(keys, measured=()):
-    """A spline for each pair; `measured` are the frequency and damping that wiggly found, by name."""
+    """A spline for each pair; `measured` is what wiggly found, by name: frequency, damping."""
     if not pairs_of(keys):
         raise ValueError('Expected shape keys in pairs, such as "up.re" and "up.im"')
     driven = [driver.data_path for driver in keys.animation_data.drivers] if keys.animation_data and not settings.of(keys) else ()
@@ -129,10 +142,14 @@ def add_pairs(keys, measured=()):
             continue
         spline = chains.add_spline(keys, chains.unique(f'wiggle {name}', set(keys.keys())))
         spline.path, spline.joint, spline.start, spline.before, spline.made = PAIRS, name, 'free', '0', True
-        spline.frequency, spline.damping = dict(measured).get(name, (spline.frequency, spline.damping))
+        known = dict(measured).get(name, {})
+        spline.frequency, spline.damping = known.get('frequency', spline.frequency), known.get('damping', spline.damping)
         sliders = {}
         for part, sign, block, halved in parts_of(keys, name):
-            driver = chains.drive_by(keys, block.path_from_id('value'), -1, [(spline, part, sign)])
+            path = block.path_from_id('value')
+            driver = curve_by(keys, path, spline, part, known) if part in CURVES else chains.drive_by(keys, path, -1, [(spline, part, 1)])
+            if sign < 0:
+                driver.expression = f'-({driver.expression})'
             if halved:
                 driver.expression = f'max(0,{driver.expression})'
             sliders[block.name] = block.slider_min, block.slider_max

@@ -153,7 +153,7 @@ class WIGGLY_OT_shapes(Operator):
         if self.remove:
             prop.remove_pairs(keys)
         else:
-            prop.add_pairs(keys, {each['name']: (each['frequency'], each['damping']) for each in found})
+            prop.add_pairs(keys, {each['name']: dict(each) for each in found})
 
 
 class WIGGLY_OT_preset(Operator):

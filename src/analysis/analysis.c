@@ -21,10 +21,15 @@ double component_error(const struct component *c, const double complex *series)
     return sqrt(fmax(left, 0) / m->power);
 }
 
-/// Ñ ← g Ñ and R ← R / g.
+/// Ñ ← g Ñ and R ← R / g, so A ← |g|² A and B ← g² B.
 static void change_gauge(struct component *c, double complex g)
 {
-    for (int n = 0; n < 3 * c->vertices; n++) c->shape[n / 3][n % 3] *= g;
+    for (int n = 0; n < 3 * c->vertices; n++) {
+        c->shape[n / 3][n % 3] *= g;
+        if (!c->lift) continue;
+        c->lift[n / 3][n % 3] *= creal(g * conj(g));
+        c->bend[n / 3][n % 3] *= g * g;
+    }
     for (int t = 0; t < c->frames; t++) {
         c->series[t] /= g;
         c->metric.pull[t] *= g;
@@ -169,7 +174,7 @@ struct work {
     int pole_count;
     double *
         middle; ///< weights of the frames, for the position that vertices swing about; NULL by CPCA, which has the mean
-    double *weights; ///< rows over the frames: Re Ñ and Im Ñ of each component; then the middle's
+    double *weights; ///< rows over the frames: Re Ñ, Im Ñ of each component; A, Re B, Im B of each; the middle's
 };
 
 static double trace(const double *gram, int frames)
@@ -297,6 +302,102 @@ static void share_motion(struct analysis *a, const struct work *w)
     free(others);
 }
 
+// --- curves: |R|² A + Re(R² B), by least squares on what Re(R Ñ) leaves
+
+enum { PARTS = 3 }; ///< |R|², Re R² and −Im R²
+
+/// Of the sum of squares of |R|²: parts that go nearly alike do not cancel each other.
+static const double ridge = 0.01;
+static const double least_curve = 1e-3;  ///< share of the motion's power that a component's curves must explain
+static const double least_part = 0.6;    ///< of what is left, times its error: the more is left, the stricter
+static const double most_curve = 0.1;    ///< of what the component itself explains: more is the motion of others
+static const double more_than_noise = 2; ///< times what they would explain if that were noise
+
+/// x ← x − Σ (along_i·x) rows_i
+static void take_off(double *x, const double *along, const double *rows, int count, int frames)
+{
+    double sums[PARTS * TIME_SERIES_MAX + 1];
+    for (int i = 0; i < count; i++) sums[i] = basis_dot(along + (size_t)i * (size_t)frames, x, frames);
+    for (int i = 0; i < count; i++, rows += frames) {
+        for (int t = 0; t < frames; t++) x[t] -= sums[i] * rows[t];
+    }
+}
+
+/// G becomes that of S − Σ rows_i (along_i S).
+static void take_off_gram(double *gram, const double *along, const double *rows, int count, int frames)
+{
+    const size_t n = (size_t)frames;
+    for (int side = 0; side < 2; side++) {
+        for (size_t t = 0; t < n; t++) take_off(gram + t * n, along, rows, count, frames);
+        for (size_t t = 0; t < n; t++) {
+            for (size_t s = 0; s < t; s++) {
+                const double other = gram[t * n + s];
+                gram[t * n + s] = gram[s * n + t];
+                gram[s * n + t] = other;
+            }
+        }
+    }
+}
+
+/// Gives components curves, each in turn if that explains enough, and the middle what is then constant of the rest; `middle` receives that one's
+/// weights. Frames that do not exist, one for each part, hold the ridge: there the motion is 0.
+static void find_curves(struct analysis *a, struct work *w, double *middle)
+{
+    const int frames = w->motion->frames, linear = 2 * a->count, most = PARTS * a->count + 1, longer = frames + most;
+    const size_t n = (size_t)frames, l = (size_t)longer;
+    double *gram = need(l * l + n * n + (size_t)(linear + 2 * most) * l, sizeof *gram), *left = gram + l * l;
+    double *rows = left + n * n, *parts = rows + (size_t)linear * n, *fit = parts + (size_t)most * l;
+    struct basis basis;
+    basis_create(&basis, longer, most);
+
+    // What is left is E S with E = 1 − Σ rows w, for the weights w of the shapes.
+    for (size_t i = 0; i < (size_t)linear * n; i++) {
+        const double complex x = a->components[i / n / 2].series[i % n];
+        rows[i] = i / n % 2 ? -cimag(x) : creal(x);
+    }
+    memcpy(left, w->gram, n * n * sizeof *left);
+    take_off_gram(left, w->weights, rows, linear, frames);
+    for (size_t i = 0; i < l * l; i++) gram[i] = i / l < n && i % l < n ? left[i / l * n + i % l] : 0;
+    for (size_t t = 0; t < l; t++) parts[t] = t < n;
+    basis_append(&basis, parts);
+    for (int k = 0; k < a->count; k++) {
+        struct component *c = &a->components[k];
+        double size = 0;
+        for (size_t t = 0; t < n; t++) size += pow(cabs(c->series[t]), 4);
+        for (int part = 0; part < PARTS; part++) {
+            double *to = parts + (size_t)basis.count * l;
+            for (size_t t = 0; t < l; t++) {
+                const double complex x = t < n ? c->series[t] : 0, square = x * (part == 0 ? conj(x) : x);
+                to[t] = part < 2 ? creal(square) : -cimag(square);
+            }
+            to[n + (size_t)basis.count] = sqrt(ridge * size);
+            basis_append(&basis, to);
+        }
+        const double gain = basis_gain(&basis, PARTS, gram);
+        const double part = fmax(least_part * a->left, more_than_noise * PARTS / frames) * a->left * a->left;
+        const bool is_curved =
+            gain > fmax(least_curve, part) * w->power && gain < most_curve * c->explained * w->power;
+        basis.count -= is_curved ? 0 : PARTS;
+        c->lift = is_curved ? pool_take(&a->pool, (size_t)c->vertices, sizeof *c->lift) : NULL;
+        c->bend = is_curved ? pool_take(&a->pool, (size_t)c->vertices, sizeof *c->bend) : NULL;
+    }
+    if (basis.count > 1) {
+        double power = 0;
+        basis_weights(&basis, fit);
+        take_off_gram(gram, fit, parts, basis.count, longer);
+        for (size_t t = 0; t < n; t++) power += gram[t * (l + 1)];
+        a->left = sqrt(fmax(power, 0) / w->power);
+        for (int i = 0; i < basis.count; i++) take_off(fit + (size_t)i * l, rows, w->weights, linear, frames);
+        memcpy(middle, fit, n * sizeof *fit);
+        for (int i = 0; i < PARTS * a->count; i++) {
+            if (!a->components[i / PARTS].lift) continue;
+            memcpy(w->weights + (size_t)(linear + i) * n, fit += l, n * sizeof *fit);
+        }
+    }
+    pool_free(&basis.pool);
+    free(gram);
+}
+
 static bool find_components(struct analysis *a, struct work *w, struct error *error)
 {
     int frames = w->motion->frames;
@@ -376,23 +477,32 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
         m->power = w->power;
     }
     share_motion(a, w);
-    for (size_t row = 0; w->middle && row < 2 * count; row++) { // weights of S′ become the same weights of S
+    const size_t middle = (2 + PARTS) * count; // the row of the weights
+    a->straight = a->left;
+    if (!w->plan->straight) find_curves(a, w, w->weights + middle * n);
+    for (size_t row = 0; w->middle && row <= middle; row++) { // weights of S′ become the same weights of S
         double *to = w->weights + row * n, sum = 0;
         for (size_t t = 0; t < n; t++) sum += to[t];
         for (size_t t = 0; t < n; t++) to[t] -= sum * w->middle[t];
     }
 
     // Ñ of every component and the middle, in a second pass over the motion, which removes the mean.
-    double *combined = need((2 * count + 1) * columns, sizeof *combined);
-    for (size_t t = 0; t < n; t++) w->weights[2 * count * n + t] = w->middle ? w->middle[t] : 0;
-    done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, 2 * a->count + 1, combined, error);
-    for (size_t i = 0; done && i < columns; i++) a->middle[i / 3][i % 3] += combined[2 * count * columns + i];
+    double *combined = need((middle + 1) * columns, sizeof *combined);
+    for (size_t t = 0; t < n; t++) w->weights[middle * n + t] += w->middle ? w->middle[t] : 0;
+    done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, (int)middle + 1, combined, error);
+    for (size_t i = 0; done && i < columns; i++) a->middle[i / 3][i % 3] += combined[middle * columns + i];
     a->power = w->power;
     for (size_t k = 0; done && k < count; k++) {
         struct component *c = &a->components[k];
         const double *re = combined + 2 * k * columns, *im = re + columns;
         double largest = 0;
-        for (size_t i = 0; i < columns; i++) c->shape[i / 3][i % 3] = re[i] + I * im[i];
+        const double *curves = combined + (2 * count + PARTS * k) * columns;
+        for (size_t i = 0; i < columns; i++) {
+            c->shape[i / 3][i % 3] = re[i] + I * im[i];
+            if (!c->lift) continue;
+            c->lift[i / 3][i % 3] = curves[i];
+            c->bend[i / 3][i % 3] = curves[columns + i] + I * curves[2 * columns + i];
+        }
         for (size_t t = 0; t < n; t++) largest = fmax(largest, cabs(c->series[t]));
         if (largest > 0) change_gauge(c, largest); // max |R| = 1
         component_turn(c, w->plan->direction);
@@ -415,11 +525,11 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     if (motion->frames - plan->first < ANALYSIS_FRAMES_MIN)
         return fail(error, ERROR_INPUT, "%s: expected %d frames or more after the drive stops, got %d", motion->path,
                     ANALYSIS_FRAMES_MIN, motion->frames > plan->first ? motion->frames - plan->first : 0);
-    const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // per pair of frames
+    const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 7; // per pair of frames
     if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);
     a->middle = pool_take(&a->pool, (size_t)motion->vertices, sizeof *a->middle);
     work.gram = pool_take(&work.pool, n * n, sizeof *work.gram);
-    work.weights = pool_take(&work.pool, (2 * (size_t)plan->modes + 1) * n, sizeof *work.weights);
+    work.weights = pool_take(&work.pool, ((2 + PARTS) * (size_t)plan->modes + 1) * n, sizeof *work.weights);
     bool done =
         slabs_gram(lapack, motion, plan->base, work.gram, a->middle[0], error) && find_components(a, &work, error);
     pool_free(&work.pool);

@@ -10,7 +10,8 @@
 #include <complex.h>
 #include <wiggly/wiggly.h>
 
-// One complex coordinate of a motion: its time series R and normal coordinate Ñ with S ≈ Re(R Ñ) (eq. 28).
+// One complex coordinate of a motion: its time series R and normal coordinate Ñ with S ≈ Re(R Ñ) (eq. 28), or where points swing far, on
+// curves, S ≈ Re(R Ñ) + |R|² A + Re(R² B).
 
 /// Gives Σ_t |s_t − Re(x_t Ñ)|² for any time series x. s_t is a frame of the component's own motion: the motion of all vertices
 /// minus the other components'.
@@ -25,6 +26,8 @@ struct component {
     int frames, vertices;
     double complex *series;      ///< R per frame; max |R| = 1
     double complex (*shape)[3];  ///< Ñ per vertex, metres a unit of R; a positive argument leads
+    double (*lift)[3];           ///< A per vertex, metres; NULL: the shape is straight
+    double complex (*bend)[3];   ///< B likewise
     double explained;            ///< share of the motion, 0 … 1: of the complex variance by CPCA, else of S
     double direction[3];         ///< d of the gauge, a unit vector
     double frequency, damping;   ///< of R: undamped, Hz; ratio, 0 … 1
@@ -62,6 +65,7 @@ struct analysis_plan {
     const double *direction;  ///< three numbers that fix the gauge, or NULL
     const struct rigid *base; ///< what the motion is seen from; NULL: as it is
     int first;                ///< first frame without a drive, from which poles are found; 0 by CPCA
+    bool straight;            ///< no A and B: eq. 28 alone
 };
 
 struct analysis {
@@ -73,6 +77,7 @@ struct analysis {
     int cancelled;     ///< poles left out because others nearly cancel them
     double power;      ///< Σ |s_t|² of the motion about its middle, m²
     double left;       ///< relative error of that with all components, 0 … 1
+    double straight;   ///< the same without their A and B
     double real_left;  ///< the same with as many real principal components
     double fast_share; ///< of the motion's power above four fifths of half the frame rate, 0 … 1
 };

@@ -39,7 +39,7 @@ struct job {
     double fps;                      ///< 0: from the files
     enum analysis_method method;
     int modes;
-    bool no_normals;
+    bool no_normals, straight;
     double lag;           ///< degrees by which the part farthest from what holds the mesh is delayed
     double from;          ///< seconds; below 0: what the files say
     struct region pinned; ///< what `pin` says
@@ -274,7 +274,10 @@ static void delay(struct component *c, const struct character *character, double
             if (isfinite(away[o]) && (from == v || apart(at[v], at[o]) < apart(at[v], at[from]))) from = o;
         }
         const double complex turn = farthest > 0 ? cexp(-I * lag * M_PI / 180 * away[from] / farthest) : 1;
-        for (int k = 0; k < 3; k++) c->shape[v][k] *= turn;
+        for (int k = 0; k < 3; k++) {
+            c->shape[v][k] *= turn;
+            if (c->bend) c->bend[v][k] *= turn * turn;
+        }
     }
     pool_free(&pool);
     component_lags(c);
@@ -305,6 +308,13 @@ static void keep_components(const struct job *job, const struct input *in, doubl
         for (int n = 0; n < 3 * c->vertices; n++) {
             to->re[n / 3][n % 3] = (float)creal(c->shape[n / 3][n % 3]);
             to->im[n / 3][n % 3] = (float)cimag(c->shape[n / 3][n % 3]);
+        }
+        to->most = 2; // twice the largest |z| of the time series, which is 1
+        if (c->lift && !character_curve(character, result->filled - 1)) need_failed();
+        for (int n = 0; c->lift && n < 3 * c->vertices; n++) {
+            to->sq[n / 3][n % 3] = (float)c->lift[n / 3][n % 3];
+            to->re2[n / 3][n % 3] = (float)creal(c->bend[n / 3][n % 3]);
+            to->im2[n / 3][n % 3] = (float)cimag(c->bend[n / 3][n % 3]);
         }
         *analyzed = (struct analyzed){.rank = rank, .fps = in->fps, .frames = c->frames};
         const struct knots *knots = job->scene || job->coordinates ? &analyzed->knots : NULL;
@@ -344,6 +354,8 @@ static void keep_components(const struct job *job, const struct input *in, doubl
     free(stem);
     printf("  relative error of the motion with %d coordinate%s: %.3g; as many real principal components: %.3g\n",
            analysis->count, analysis->count > 1 ? "s" : "", left, analysis->real_left);
+    if (analysis->left < analysis->straight)
+        printf("    its shapes are curved; with --straight: %.3g\n", analysis->straight);
 }
 
 /// Writes a scene for the character file `model`, with one spline per coordinate, as many coordinates as a scene allows. The first
@@ -503,6 +515,7 @@ static bool analyse_file(const struct job *job, int file, const struct character
                      : in->made.frames > 0    ? in->made.shake
                                               : NULL,
         .base = &in->base,
+        .straight = job->straight,
     };
     if (!analysis_create(&in->analysis, lapack, &in->motion, &in->plan, error)) return false;
     warn_of_input(in, &resting);
@@ -556,8 +569,7 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
     }
     while (done && character->coordinate_count > result.filled) { // those without poles
         struct coordinate *last = &character->coordinates[--character->coordinate_count];
-        free(last->re);
-        free(last->im);
+        for (int p = 0; p < COORDINATE_PARTS; p++) free(last->parts[p]);
     }
 
     // All files are written or none, though more was read than the command line named.
@@ -592,6 +604,8 @@ int command_analyze(int argc, char **argv)
         {"--modes K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1, MODES_MAX},
         {"--no-normals", "leave out the morph targets' normals: a smaller file, the same in wiggly", OPTION_FLAG,
          &job.no_normals, 0, 0},
+        {"--straight", "no curved shapes, even where vertices swing on arcs: eq. 29 of the paper alone", OPTION_FLAG,
+         &job.straight, 0, 0},
         {"--shake DIR",
          "direction of the shake: up, side, front or x,y,z; one for all or one per file, up:side "
          "(the simulation's)",

@@ -118,7 +118,7 @@ const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, tail_
                                     tail_columns};
 const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = tail_columns};
 
-// --- a soft character without bones: its mesh, and two morph targets per coordinate, as in its own file (model/character.h)
+// --- a soft character without bones: its mesh, and the morph targets of each coordinate, as in its own file (model/character.h)
 
 /// The character with only the coordinates that the rig uses.
 struct moving {
@@ -141,7 +141,7 @@ static bool character_open(const struct posing *posing, int rig, const struct ri
     struct moving *moving = form->owned =
         pool_take(&form->pool, sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates, 1);
     form->looks = &c->looks;
-    form->targets = pool_take(&form->pool, (size_t)c->coordinate_count * 2, sizeof *form->targets);
+    form->targets = pool_take(&form->pool, (size_t)c->coordinate_count * COORDINATE_PARTS, sizeof *form->targets);
     moving->character = *c;
     moving->character.coordinates = moving->coordinates;
     moving->character.coordinate_count = 0;
@@ -152,9 +152,9 @@ static bool character_open(const struct posing *posing, int rig, const struct ri
         for (int d = 0; d < model->drive_count; d++) moves |= figure_find(figure, model->drives[d].name) == k;
         if (!moves) continue;
         moving->coordinates[moving->character.coordinate_count++] = c->coordinates[k];
-        for (int part = 0; part < 2; part++)
+        for (int part = 0; part < coordinate_parts(&c->coordinates[k]); part++)
             form->targets[form->target_count++] =
-                (struct form_target){figure_target_create(figure, k, part, &form->pool), k};
+                (struct form_target){figure_target_create(figure, k, part, &form->pool), k, part};
     }
     return true;
 }
@@ -166,7 +166,9 @@ static void character_key(const struct form *form, const struct rig_pose *pose, 
     for (int t = 0; t < form->target_count; t++) {
         key->weight[t] = 0;
         for (int k = 0; k < morph->count; k++) {
-            if (morph->coordinate[k] == form->targets[t].group) key->weight[t] += morph->weight[k][t % 2];
+            const int part = form->targets[t].part;
+            if (morph->coordinate[k] == form->targets[t].group)
+                key->weight[t] += (part == COORDINATE_PARTS - 1 ? -1 : 1) * morph->weight[k][part];
         }
     }
 }

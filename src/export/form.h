@@ -100,7 +100,7 @@ struct form_joint {
 
 struct form_target {
     struct figure_target figure; ///< offsets of vertices and rotations of normals at weight 1
-    int group;                   ///< targets of a group are scaled equally
+    int group, part;             ///< a coordinate, whose targets are scaled equally, and which part of it
 };
 
 struct form {

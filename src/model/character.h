@@ -2,10 +2,11 @@
 ///
 /// creature.glb is plain glTF 2.0. Each coordinate is two morph targets, NAME.re = Re Ñ and NAME.im = −Im Ñ, so that with
 /// the weights Re z and Im z of z = A e^{jφ} x the deformation is Re(z Ñ) (eq. 29, eq. 30) in a viewer that takes negative weights.
+/// A curved coordinate adds |z|² A + Re(z² B) as NAME.sq = A, NAME.re2 = Re B and NAME.im2 = Im B with the weights |z|², Re z² and −Im z².
 /// Targets may turn normals too, to first order. First come all vertices of the mesh at rest in their order, then copies of those that have
 /// several texture coordinates; each material is a primitive, and all share the vertices. The mesh's
 /// extras say {"targetNames": […], "wiggly": {"coordinates": [{"name", "frequency", "damping", …}]}}; "scale" there says by how
-/// much an export has scaled both targets up.
+/// much an export has scaled its targets up, "most" the largest |z| that the curves are known for.
 #ifndef MODEL_CHARACTER_H
 #define MODEL_CHARACTER_H
 
@@ -13,6 +14,12 @@
 #include "model/surface.h"
 #include <stdbool.h>
 #include <stdint.h>
+
+/// The arrays of a coordinate: of a straight one only the first two. The weights of `im` and `im2` count negative: Re(z Ñ).
+enum { COORDINATE_STRAIGHT = 2, COORDINATE_PARTS = 5 };
+
+/// ".re" …
+extern const char *const coordinate_endings[COORDINATE_PARTS];
 
 /// One complex normal coordinate Ñ: how far and how much later each vertex moves when x does. Unknown numbers
 /// are 0.
@@ -22,11 +29,32 @@ struct coordinate {
     double damping;    ///< ratio
     double explained;  ///< share of the complex variance, 0 … 1
     double pca1, pca2; ///< shares that the first and the first two real principal components explain, 0 … 1
-    float (*re)[3];    ///< Re Ñ, metres a unit of the spline, per vertex
-    float (*im)[3];    ///< Im Ñ; a vertex with a positive argument of Ñ leads
-    int target[2];     ///< of its file's mesh: NAME.re and NAME.im
-    double scale;      ///< times which those have it
+    double most; ///< the largest |z| that the curves are known for; beyond it they go on as straight as they can
+    union {
+        struct {
+            float (*re)[3];             ///< Re Ñ, metres a unit of the spline, per vertex
+            float (*im)[3];             ///< Im Ñ; a vertex with a positive argument of Ñ leads
+            float (*sq)[3];             ///< A; NULL, as the next two: points do not move on curves
+            float (*re2)[3], (*im2)[3]; ///< Re B and Im B
+        };
+        float (*parts[COORDINATE_PARTS])[3];
+    };
+    int target[COORDINATE_PARTS]; ///< of its file's mesh: NAME.re …
+    double scale;                 ///< times which those have it
 };
+
+static inline int coordinate_parts(const struct coordinate *c)
+{
+    return c->sq ? COORDINATE_PARTS : COORDINATE_STRAIGHT;
+}
+
+/// −1: a part's weight counts negative.
+static inline double coordinate_sign(int part) { return part == 1 || part == COORDINATE_PARTS - 1 ? -1 : 1; }
+
+/// The weights Re z, Im z, |z|², Re z² and Im z². Where r = |z| is above `most`, m, the last three are continued linearly in r, with m(2r − m) in
+/// place of r²: once differentiable. `by` (may be NULL) receives their derivatives by Re z and by Im z.
+void coordinate_weights(const struct coordinate *c, const double z[2], double weights[COORDINATE_PARTS],
+                        double by[2][COORDINATE_PARTS]);
 
 /// All zero is the empty character. Metres, y up, triangles counter-clockwise seen from outside.
 struct character {
@@ -47,6 +75,9 @@ struct character {
 /// A character at rest: takes the surface over and leaves it empty, with normals from its triangles and `coordinates` coordinates with zero
 /// Ñ and no names. False if memory is short.
 bool character_create(struct character *character, struct surface *surface, int coordinates);
+
+/// Makes a coordinate curved, with A and B of 0. False if memory is short.
+bool character_curve(struct character *character, int coordinate);
 
 /// Normals from triangles, weighted by area; (0, 1, 0) for a vertex without.
 void character_find_normals(struct character *character);

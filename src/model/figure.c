@@ -37,15 +37,21 @@ static void solve_fit(const struct fit *fit, float by_u[3], float by_v[3])
     }
 }
 
+static struct slope *slope_at(const struct figure *figure, int coordinate, int part, int vertex)
+{
+    const ptrdiff_t row = (ptrdiff_t)coordinate * figure->parts + part;
+    return &figure->slopes[row * figure->character.vertex_count + vertex];
+}
+
 static void fit_slope(struct figure *figure, int coordinate, int vertex)
 {
     const struct character *c = &figure->character;
     const struct coordinate *n = &c->coordinates[coordinate];
-    struct slope *s = &figure->slopes[coordinate * c->vertex_count + vertex];
     const vec3s tangent = vec3_from(figure->tangent[vertex]);
     const vec3s across = glms_vec3_cross(vec3_from(c->normal[vertex]), tangent);
+    const int parts = coordinate_parts(n);
+    struct slope s[COORDINATE_PARTS] = {0};
     struct fit fit = {0};
-    *s = (struct slope){0};
     for (int e = figure->edges.first[vertex]; e < figure->edges.first[vertex + 1]; e++) {
         const uint32_t other = figure->edges.other[e];
         const vec3s edge = glms_vec3_sub(vec3_from(c->position[other]), vec3_from(c->position[vertex]));
@@ -55,11 +61,13 @@ static void fit_slope(struct figure *figure, int coordinate, int vertex)
         fit.uu += weight * uv[0] * uv[0];
         fit.uv += weight * uv[0] * uv[1];
         fit.vv += weight * uv[1] * uv[1];
-        add_difference(n->re[vertex], n->re[other], uv, weight, s->re_u, s->re_v);
-        add_difference(n->im[vertex], n->im[other], uv, weight, s->im_u, s->im_v);
+        for (int p = 0; p < parts; p++)
+            add_difference(n->parts[p][vertex], n->parts[p][other], uv, weight, s[p].u, s[p].v);
     }
-    solve_fit(&fit, s->re_u, s->re_v);
-    solve_fit(&fit, s->im_u, s->im_v);
+    for (int p = 0; p < parts; p++) {
+        solve_fit(&fit, s[p].u, s[p].v);
+        *slope_at(figure, coordinate, p, vertex) = s[p];
+    }
 }
 
 /// Measures the largest amplitudes of a coordinate.
@@ -74,16 +82,28 @@ static void measure_largest(struct figure *figure, int coordinate)
     for (int k = 0; k < 3; k++) figure->largest[coordinate][k] = sqrtf(square[k]);
 }
 
+/// Makes room for what is derived from coordinates.
+static void make_room(struct figure *figure, struct pool *pool)
+{
+    const struct character *c = &figure->character;
+    const size_t vertices = (size_t)c->vertex_count, coordinates = (size_t)c->coordinate_count;
+    figure->parts = COORDINATE_STRAIGHT;
+    for (int k = 0; k < c->coordinate_count; k++) {
+        const int parts = coordinate_parts(&c->coordinates[k]);
+        if (parts > figure->parts) figure->parts = parts;
+    }
+    figure->slopes = pool_take(pool, vertices * coordinates * (size_t)figure->parts, sizeof *figure->slopes);
+    figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
+}
+
 // --- the figure
 
 void figure_derive(struct figure *figure)
 {
     const struct character *c = &figure->character;
-    const size_t vertices = (size_t)c->vertex_count, coordinates = (size_t)c->coordinate_count;
     struct pool *pool = &figure->pool;
-    figure->tangent = pool_take(pool, vertices, sizeof *figure->tangent);
-    figure->slopes = pool_take(pool, vertices * coordinates, sizeof *figure->slopes);
-    figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
+    figure->tangent = pool_take(pool, (size_t)c->vertex_count, sizeof *figure->tangent);
+    make_room(figure, pool);
     figure->edges = adjacency_create(pool, (const float(*)[3])c->position, (const float(*)[3])c->normal,
                                      c->vertex_count, c->indices, c->index_count);
     glm_vec3_fill(figure->lo, INFINITY);
@@ -114,24 +134,21 @@ void figure_forget(struct figure *figure)
     figure_free(figure);
 }
 
-struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary,
-                                          struct pool *pool)
+struct figure_target figure_target_create(const struct figure *figure, int coordinate, int part, struct pool *pool)
 {
-    const char *ending = imaginary ? ".im" : ".re";
+    const char *ending = coordinate_endings[part];
     const struct character *c = &figure->character;
     const struct coordinate *n = &c->coordinates[coordinate];
-    struct figure_target target = {.sign = imaginary ? -1.0f : 1.0f,
-                                   .position = (const float(*)[3])(imaginary ? n->im : n->re)};
+    struct figure_target target = {.sign = part == 1 ? -1.0f : 1.0f, .position = (const float(*)[3])n->parts[part]};
     target.name = pool_take(pool, strlen(n->name) + strlen(ending) + 1, 1);
     stpcpy(stpcpy(target.name, n->name), ending);
     if (!figure->slopes) return target;
     target.normal = pool_take(pool, (size_t)c->vertex_count, sizeof *target.normal);
     for (int i = 0; i < c->vertex_count; i++) {
-        const struct slope *s = &figure->slopes[coordinate * c->vertex_count + i];
+        const struct slope *s = slope_at(figure, coordinate, part, i);
         const vec3s u = vec3_from(figure->tangent[i]), v = glms_vec3_cross(vec3_from(c->normal[i]), u);
-        const vec3s du = vec3_from(imaginary ? s->im_u : s->re_u), dv = vec3_from(imaginary ? s->im_v : s->re_v);
-        const vec3s sum = glms_vec3_add(glms_vec3_cross(du, v), glms_vec3_cross(u, dv));
-        for (int k = 0; k < 3; k++) target.normal[i][k] = imaginary ? -sum.raw[k] : sum.raw[k];
+        const vec3s sum = glms_vec3_add(glms_vec3_cross(vec3_from(s->u), v), glms_vec3_cross(u, vec3_from(s->v)));
+        for (int k = 0; k < 3; k++) target.normal[i][k] = target.sign * sum.raw[k];
     }
     return target;
 }
@@ -140,7 +157,9 @@ bool figure_has_room(const struct character *character)
 {
     enum { OTHERS = 4 }; // working memory, and other arrays per vertex or corner
     const size_t vertices = (size_t)character->vertex_count, corners = (size_t)character->index_count;
-    const size_t slopes = (size_t)character->coordinate_count * sizeof(struct slope);
+    size_t slopes = 0;
+    for (int k = 0; k < character->coordinate_count; k++)
+        slopes += (size_t)coordinate_parts(&character->coordinates[k]) * sizeof(struct slope);
     return need_has_room(vertices * (slopes + OTHERS * sizeof(struct spot)) + corners * OTHERS * sizeof(uint32_t));
 }
 
@@ -189,10 +208,43 @@ int figure_find(const struct figure *figure, const char *name)
     return -1;
 }
 
+void coordinate_weights(const struct coordinate *c, const double z[2], double weights[COORDINATE_PARTS],
+                        double by[2][COORDINATE_PARTS])
+{
+    // |z|² = q r², z² is q z² with q = 1, beyond m (2 m r − m²) / r².
+    const double x = z[0], y = z[1], square = x * x + y * y, r = sqrt(square), m = c->sq ? c->most : 0;
+    const double q = r > m ? m * (2 * r - m) / square : 1,
+                 slope = r > m ? 2 * m * (m - r) / (square * r) : 0; // dq/dr
+    const double list[COORDINATE_PARTS] = {x, y, q * square, q * (x * x - y * y), 2 * q * x * y};
+    memcpy(weights, list, sizeof list);
+    for (int k = 0; by && k < 2; k++) {
+        const double along = r > m ? slope * z[k] / r : 0, turned = k == 0 ? y : x; // dq/dx or dq/dy
+        const double derivatives[COORDINATE_PARTS] = {k == 0, k == 1, along * square + 2 * q * z[k],
+                                                      along * (x * x - y * y) + (k == 0 ? 2 : -2) * q * z[k],
+                                                      2 * along * x * y + 2 * q * turned};
+        memcpy(by[k], derivatives, sizeof derivatives);
+    }
+}
+
+void morph_add(struct morph *morph, const struct figure *figure, int coordinate, const double z[2])
+{
+    double weights[COORDINATE_PARTS];
+    coordinate_weights(&figure->character.coordinates[coordinate], z, weights, NULL);
+    for (int p = 0; p < COORDINATE_PARTS; p++) morph->weight[morph->count][p] = (float)weights[p];
+    morph->coordinate[morph->count++] = coordinate;
+}
+
 /// sum += Re(z (re + j·im))
 static void add_real_part(const float z[2], const float re[3], const float im[3], float sum[3])
 {
     for (int k = 0; k < 3; k++) sum[k] += z[0] * re[k] - z[1] * im[k];
+}
+
+/// sum += |z|² sq + Re(z² (re + j·im)), with their weights.
+static void add_curve(const float weights[3], const float sq[3], const float re[3], const float im[3], float sum[3])
+{
+    for (int k = 0; k < 3; k++) sum[k] += weights[0] * sq[k];
+    add_real_part(weights + 1, re, im, sum);
 }
 
 void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
@@ -201,14 +253,22 @@ void morph_vertex(const struct figure *figure, const struct morph *morph, int ve
     memcpy(position, figure->character.position[vertex], 3 * sizeof *position);
     for (int k = 0; k < morph->count; k++) {
         const struct coordinate *c = &figure->character.coordinates[morph->coordinate[k]];
-        add_real_part(morph->weight[k], c->re[vertex], c->im[vertex], position);
+        const float *weight = morph->weight[k];
+        add_real_part(weight, c->re[vertex], c->im[vertex], position);
+        if (c->sq) add_curve(weight + COORDINATE_STRAIGHT, c->sq[vertex], c->re2[vertex], c->im2[vertex], position);
     }
     if (!normal) return;
     vec3s u = vec3_from(figure->tangent[vertex]), v = glms_vec3_cross(vec3_from(figure->character.normal[vertex]), u);
     for (int k = 0; k < morph->count; k++) {
-        const struct slope *s = &figure->slopes[morph->coordinate[k] * figure->character.vertex_count + vertex];
-        add_real_part(morph->weight[k], s->re_u, s->im_u, u.raw);
-        add_real_part(morph->weight[k], s->re_v, s->im_v, v.raw);
+        const int n = morph->coordinate[k], step = figure->character.vertex_count;
+        const struct slope *s = slope_at(figure, n, 0, vertex);
+        const float *weight = morph->weight[k];
+        add_real_part(weight, s->u, s[step].u, u.raw);
+        add_real_part(weight, s->v, s[step].v, v.raw);
+        if (!figure->character.coordinates[n].sq) continue;
+        weight += COORDINATE_STRAIGHT;
+        add_curve(weight, s[2 * step].u, s[3 * step].u, s[4 * step].u, u.raw);
+        add_curve(weight, s[2 * step].v, s[3 * step].v, s[4 * step].v, v.raw);
     }
     vec3s n = glms_vec3_cross(u, v);
     n = glms_vec3_divs(n, fmaxf(glms_vec3_norm(n), 1e-9f)); // no direction if squeezed flat, but not NaN
@@ -222,9 +282,7 @@ struct morph figure_morph(const struct figure *figure, const float *weights)
         const struct coordinate *c = &figure->character.coordinates[k];
         const float re = weights[c->target[0]], im = weights[c->target[1]], scale = (float)c->scale;
         if (re == 0 && im == 0) continue;
-        morph.coordinate[morph.count] = k;
-        morph.weight[morph.count][0] = scale * re;
-        morph.weight[morph.count++][1] = scale * im;
+        morph_add(&morph, figure, k, (const double[2]){(double)(scale * re), (double)(scale * im)});
     }
     return morph;
 }
@@ -246,8 +304,9 @@ struct carried {
 static bool is_other(const struct carried *carried, const struct character *c, int target)
 {
     bool other = carried->weights[target] != 0;
-    for (int k = 0; k < c->coordinate_count && other; k++)
-        other = target != c->coordinates[k].target[0] && target != c->coordinates[k].target[1];
+    for (int k = 0; k < c->coordinate_count && other; k++) {
+        for (int p = 0; p < coordinate_parts(&c->coordinates[k]); p++) other &= target != c->coordinates[k].target[p];
+    }
     return other;
 }
 
@@ -355,9 +414,10 @@ int figure_lowest(const struct model_pose *model, float *height)
     for (int v = 0; v < c->vertex_count; v++) {
         bool moves = false;
         float place[3];
-        for (int n = 0; n < c->coordinate_count && !moves; n++)
-            moves = glms_vec3_norm2(vec3_from(c->coordinates[n].re[v])) > 0 ||
-                    glms_vec3_norm2(vec3_from(c->coordinates[n].im[v])) > 0;
+        for (int n = 0; n < c->coordinate_count && !moves; n++) {
+            for (int p = 0; p < coordinate_parts(&c->coordinates[n]); p++)
+                moves |= glms_vec3_norm2(vec3_from(c->coordinates[n].parts[p][v])) > 0;
+        }
         if (!moves) continue;
         place_vertex(&carried, model, v, &part, &first, place, NULL);
         if (place[1] >= *height) continue;
@@ -381,8 +441,7 @@ struct painted *painted_create(const struct figure *plain)
     figure->id = gltf_new_id();
     figure->version = 1;
     *pool = (struct pool){0};
-    figure->slopes = pool_take(pool, vertices * coordinates, sizeof *figure->slopes);
-    figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
+    make_room(figure, pool);
     figure->character.coordinates = pool_take(pool, coordinates, sizeof *figure->character.coordinates);
     painted->applied = pool_take(pool, vertices * coordinates, sizeof *painted->applied);
     painted->stale = pool_take(pool, vertices, sizeof *painted->stale);
@@ -390,12 +449,12 @@ struct painted *painted_create(const struct figure *plain)
         const struct coordinate *from = &plain->character.coordinates[k];
         struct coordinate *c = &figure->character.coordinates[k];
         *c = *from; // shares the name
-        c->re = pool_take(pool, vertices, sizeof *c->re);
-        c->im = pool_take(pool, vertices, sizeof *c->im);
-        memcpy(c->re, from->re, vertices * sizeof *c->re);
-        memcpy(c->im, from->im, vertices * sizeof *c->im);
+        for (int p = 0; p < coordinate_parts(from); p++) {
+            c->parts[p] = pool_take(pool, vertices, sizeof *c->parts[p]);
+            memcpy(c->parts[p], from->parts[p], vertices * sizeof *c->parts[p]);
+        }
     }
-    memcpy(figure->slopes, plain->slopes, vertices * coordinates * sizeof(struct slope));
+    memcpy(figure->slopes, plain->slopes, vertices * coordinates * (size_t)plain->parts * sizeof *plain->slopes);
     memcpy(figure->largest, plain->largest, coordinates * sizeof *figure->largest);
     return painted;
 }
@@ -405,6 +464,16 @@ void painted_destroy(struct painted *painted)
     if (!painted) return;
     pool_free(&painted->figure.pool);
     free(painted);
+}
+
+/// to = (re + j·im) from
+static void turn_vector(float re, float im, const float from_re[3], const float from_im[3], float to_re[3],
+                        float to_im[3])
+{
+    for (int k = 0; k < 3; k++) {
+        to_re[k] = re * from_re[k] - im * from_im[k];
+        to_im[k] = re * from_im[k] + im * from_re[k];
+    }
 }
 
 void painted_update(struct painted *painted, const float (*paint)[2])
@@ -429,9 +498,10 @@ void painted_update(struct painted *painted, const float (*paint)[2])
             // Ñ' = Ñ e^{a + jψ}; its slopes and its neighbours' are out of date.
             const float size = maths_expf(value[0]), re = size * maths_cosf(value[1]),
                         im = size * maths_sinf(value[1]);
-            for (int c = 0; c < 3; c++) {
-                to->re[i][c] = re * from->re[i][c] - im * from->im[i][c];
-                to->im[i][c] = re * from->im[i][c] + im * from->re[i][c];
+            turn_vector(re, im, from->re[i], from->im[i], to->re[i], to->im[i]);
+            if (from->sq) {
+                glm_vec3_scale(from->sq[i], size * size, to->sq[i]);
+                turn_vector(re * re - im * im, 2 * re * im, from->re2[i], from->im2[i], to->re2[i], to->im2[i]);
             }
             painted->stale[i] = true;
             for (int e = edges->first[i]; e < edges->first[i + 1]; e++) painted->stale[edges->other[e]] = true;

@@ -14,9 +14,9 @@ enum {
     FIGURE_SOLES = 2,
 };
 
-/// Derivatives of one coordinate at one vertex, along t₁ (u) and t₂ (v), per metre.
+/// Derivatives of one part of a coordinate at one vertex, along t₁ and t₂, per metre.
 struct slope {
-    float re_u[3], im_u[3], re_v[3], im_v[3];
+    float u[3], v[3];
 };
 
 /// Where the character touches the ground: a disc. Radius 0: nowhere.
@@ -28,7 +28,8 @@ struct figure {
     struct character character;
     struct pool pool;     ///< of what follows
     float (*tangent)[3];  ///< t₁ per vertex: unit, across the normal
-    struct slope *slopes; ///< [coordinate · vertex_count + vertex]
+    struct slope *slopes; ///< [(coordinate · parts + part) · vertex_count + vertex]
+    int parts;            ///< COORDINATE_PARTS if any coordinate is curved, else COORDINATE_STRAIGHT
     float (*largest)[3];  ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
     struct adjacency edges;
     float lo[3], hi[3]; ///< box at rest
@@ -48,7 +49,7 @@ void figure_create(struct figure *figure, struct character *character);
 void figure_derive(struct figure *figure);
 void figure_forget(struct figure *figure);
 
-/// The real or the imaginary part of a coordinate as a morph target: Re Ñ or −Im Ñ.
+/// A part of a coordinate as a morph target.
 struct figure_target {
     char *name;                 ///< "up.re"
     float sign;                 ///< times `position`: how far it takes vertices
@@ -58,8 +59,7 @@ struct figure_target {
 
 /// A target that turns normals, to first order, where the figure is derived: n = t₁ × t₂, and the coordinate moves both tangents. Its
 /// memory is the pool's.
-struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary,
-                                          struct pool *pool);
+struct figure_target figure_target_create(const struct figure *figure, int coordinate, int part, struct pool *pool);
 
 /// Leaves an empty figure.
 void figure_free(struct figure *figure);
@@ -68,19 +68,22 @@ void figure_free(struct figure *figure);
 int figure_find(const struct figure *figure, const char *name);
 
 // A soft character in motion: the sum of its complex normal coordinates, each turned and scaled by a weight,
-// D(j) = Re(Σ_k z_k Ñ_{k,j}).
+// D(j) = Re(Σ_k z_k Ñ_{k,j}), and where they are curved of |z_k|² A_{k,j} + Re(z_k² B_{k,j}).
 
 enum { MORPH_MAX_COORDINATES = 16 }; ///< that move at once
 
 /// The weights of a figure's coordinates at one time.
 struct morph {
     int count;
-    int coordinate[MORPH_MAX_COORDINATES];  ///< index in the figure
-    float weight[MORPH_MAX_COORDINATES][2]; ///< z: real and imaginary part
+    int coordinate[MORPH_MAX_COORDINATES];                 ///< index in the figure
+    float weight[MORPH_MAX_COORDINATES][COORDINATE_PARTS]; ///< coordinate_weights() of z
 };
 
 /// What the weights of its mesh's morph targets say; coordinates at 0 are left out.
 struct morph figure_morph(const struct figure *figure, const float *weights);
+
+/// Adds a coordinate with the weight z.
+void morph_add(struct morph *morph, const struct figure *figure, int coordinate, const double z[2]);
 
 /// The position and unit normal of a vertex, as the stage's vertex shader computes them. `normal` may be NULL.
 void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
@@ -111,7 +114,7 @@ void figure_vertex(const struct model_pose *model, int vertex, float place[3]);
 /// The lowest of those that coordinates move, below a height that becomes its own; −1: none is.
 int figure_lowest(const struct model_pose *model, float *height);
 
-// A figure whose coordinates are turned and scaled vertex by vertex: Ñ' = Ñ e^{a + jψ}.
+// A figure whose coordinates are turned and scaled vertex by vertex: Ñ' = Ñ e^{a + jψ}, A' = A e^{2a}, B' = B e^{2(a + jψ)}.
 // Everything else is shared with the plain figure.
 
 struct painted {

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *const coordinate_endings[COORDINATE_PARTS] = {".re", ".im", ".sq", ".re2", ".im2"};
+
 bool character_create(struct character *c, struct surface *surface, int coordinates)
 {
     *c = (struct character){
@@ -38,6 +40,14 @@ bool character_create(struct character *c, struct surface *surface, int coordina
     return true;
 }
 
+bool character_curve(struct character *c, int coordinate)
+{
+    float(**parts)[3] = c->coordinates[coordinate].parts;
+    for (int p = COORDINATE_STRAIGHT; p < COORDINATE_PARTS; p++)
+        if (!(parts[p] = calloc((size_t)c->vertex_count, sizeof *parts[p]))) return false;
+    return true;
+}
+
 void character_find_normals(struct character *c)
 {
     memset(c->normal, 0, (size_t)c->vertex_count * sizeof *c->normal);
@@ -58,8 +68,7 @@ void character_free(struct character *c)
 {
     for (int i = 0; i < c->coordinate_count; i++) {
         free(c->coordinates[i].name);
-        free(c->coordinates[i].re);
-        free(c->coordinates[i].im);
+        for (int p = 0; p < COORDINATE_PARTS; p++) free(c->coordinates[i].parts[p]);
     }
     free(c->coordinates);
     free(c->position);
@@ -163,30 +172,33 @@ static bool make_surface(const struct gltf *gltf, const struct gltf_mesh *mesh, 
 
 // --- coordinates
 
-/// Whether a target is the real part of a coordinate, and which target is its imaginary part.
-static bool is_coordinate(const struct gltf_mesh *mesh, int target, size_t *name_length, int *im)
+/// The number of parts of the coordinate whose real part a target is, 0: of none; and which targets they are.
+static int find_parts(const struct gltf_mesh *mesh, int target, size_t *name_length, int parts[COORDINATE_PARTS])
 {
     const char *name = gltf_target_name(mesh, target);
     size_t length = name ? strlen(name) : 0;
-    if (length < 4 || strcmp(name + length - 3, ".re") != 0) return false;
+    int count = 1;
+    if (length < 4 || strcmp(name + length - 3, coordinate_endings[0]) != 0) return 0;
     *name_length = length - 3;
-    *im = -1;
-    for (int t = 0; t < mesh->target_count && *im < 0; t++) {
+    parts[0] = target;
+    for (int t = 0; t < mesh->target_count && count < COORDINATE_PARTS; t++) {
         const char *text = gltf_target_name(mesh, t);
-        if (text && strlen(text) == length && strncmp(text, name, length - 3) == 0 &&
-            strcmp(text + length - 3, ".im") == 0)
-            *im = t;
+        if (!text || strncmp(text, name, length - 3) != 0 ||
+            strcmp(text + length - 3, coordinate_endings[count]) != 0)
+            continue;
+        parts[count++] = t;
+        t = -1;
     }
-    return *im >= 0;
+    return count == COORDINATE_PARTS ? count : count >= COORDINATE_STRAIGHT ? COORDINATE_STRAIGHT : 0;
 }
 
 bool gltf_is_soft(const struct gltf *gltf)
 {
     const struct gltf_mesh *mesh = choose_mesh(gltf);
     size_t length;
-    int im;
+    int parts[COORDINATE_PARTS];
     for (int t = 0; mesh && t < mesh->target_count; t++) {
-        if (is_coordinate(mesh, t, &length, &im)) return true;
+        if (find_parts(mesh, t, &length, parts) > 0) return true;
     }
     return false;
 }
@@ -234,8 +246,8 @@ static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh,
         glm_mat4_mulv3(m.raw, c->position[i], 1, c->position[i]);
         gltf_turn_normal((const float *)m.raw, c->normal[i]);
         for (int k = 0; k < c->coordinate_count; k++) {
-            glm_mat4_mulv3(m.raw, c->coordinates[k].re[i], 0, c->coordinates[k].re[i]);
-            glm_mat4_mulv3(m.raw, c->coordinates[k].im[i], 0, c->coordinates[k].im[i]);
+            for (int p = 0; p < coordinate_parts(&c->coordinates[k]); p++)
+                glm_mat4_mulv3(m.raw, c->coordinates[k].parts[p][i], 0, c->coordinates[k].parts[p][i]);
         }
     }
     for (int i = 0; glms_mat4_det(m) < 0 && i + 2 < c->index_count; i += 3) {
@@ -259,18 +271,22 @@ bool character_read(const char *path, struct character *c, struct error *error)
 
 bool character_from_gltf(const struct gltf *gltf, struct character *c, struct error *error)
 {
-    size_t vertices = 0, coordinates = 0, length, i;
-    int im, next = 0;
+    size_t vertices = 0, coordinates = 0, arrays = 0, length, i;
+    int parts[COORDINATE_PARTS] = {0}, next = 0;
     *c = (struct character){0};
     const size_t most = gltf->room / (2 * sizeof *c->position);
     const struct gltf_mesh *mesh = choose_mesh(gltf);
     for (int p = 0; mesh && p < mesh->part_count; p++)
         vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
-    for (int t = 0; mesh && t < mesh->target_count; t++) coordinates += is_coordinate(mesh, t, &length, &im);
+    for (int t = 0; mesh && t < mesh->target_count; t++) {
+        const int count = find_parts(mesh, t, &length, parts);
+        coordinates += count > 0;
+        arrays += (size_t)count;
+    }
     bool made = mesh || fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got %s", gltf->path,
                              gltf->not_shown ? gltf->not_shown : "none");
     made = made &&
-           (vertices * coordinates <= most ||
+           (vertices * arrays <= 2 * most ||
             fail(error, ERROR_INPUT, "%s: expected at most %zu vertices in a file of this size, got %zu times %zu",
                  gltf->path, most, coordinates, vertices));
     if (!made) return false;
@@ -288,9 +304,11 @@ bool character_from_gltf(const struct gltf *gltf, struct character *c, struct er
     struct coordinate *coordinate = c->coordinates;
     for (int t = 0; made && t < mesh->target_count; t++) {
         const json_t *known = NULL, *entry;
-        if (!is_coordinate(mesh, t, &length, &im)) continue;
+        const int count = find_parts(mesh, t, &length, parts);
+        if (count == 0) continue;
         coordinate->name = strndup(gltf_target_name(mesh, t), length);
-        made = coordinate->name;
+        made = coordinate->name &&
+               (count == COORDINATE_STRAIGHT || character_curve(c, (int)(coordinate - c->coordinates)));
         if (!made) break;
         json_array_foreach(json_object_get(json_object_get(mesh->extras, "wiggly"), "coordinates"), i, entry)
         {
@@ -298,15 +316,14 @@ bool character_from_gltf(const struct gltf *gltf, struct character *c, struct er
             if (!known && called && strcmp(called, coordinate->name) == 0) known = entry;
         }
         const double scale = coordinate->scale = real_of(known, "scale") > 0 ? real_of(known, "scale") : 1;
-        coordinate->target[0] = t;
-        coordinate->target[1] = im;
+        memcpy(coordinate->target, parts, sizeof parts);
         coordinate->frequency = real_of(known, "frequency");
         coordinate->damping = real_of(known, "damping");
         coordinate->explained = real_of(known, "explained");
         coordinate->pca1 = real_of(known, "pca1");
         coordinate->pca2 = real_of(known, "pca2");
-        take_target(mesh, t, 1, scale, coordinate->re);
-        take_target(mesh, im, -1, scale, coordinate->im);
+        coordinate->most = real_of(known, "most") > 0 ? real_of(known, "most") : INFINITY;
+        for (int p = 0; p < count; p++) take_target(mesh, parts[p], p == 1 ? -1 : 1, scale, coordinate->parts[p]);
         coordinate++;
     }
     made = (made && place_as_node(gltf, mesh, c)) || fail_no_memory(error, gltf->path);
@@ -424,12 +441,14 @@ bool character_write(const char *path, const struct character *character, bool t
                                .indices = indices,
                                .index_count = character->index_count,
                                .looks = &character->looks,
-                               .target_count = 2 * character->coordinate_count,
                                .character = character};
-    shape.targets = pool_take(&pool, (size_t)shape.target_count, sizeof *shape.targets);
-    for (int t = 0; t < shape.target_count; t++) {
-        const struct figure_target of = figure_target_create(&figure, t / 2, t % 2, &pool);
-        shape.targets[t] = (struct gltf_shape_target){of.name, of.position, (const float(*)[3])of.normal, of.sign, 1};
+    shape.targets = pool_take(&pool, COORDINATE_PARTS * (size_t)character->coordinate_count, sizeof *shape.targets);
+    for (int k = 0; k < character->coordinate_count; k++) {
+        for (int p = 0; p < coordinate_parts(&character->coordinates[k]); p++) {
+            const struct figure_target of = figure_target_create(&figure, k, p, &pool);
+            shape.targets[shape.target_count++] =
+                (struct gltf_shape_target){of.name, of.position, (const float(*)[3])of.normal, of.sign, 1};
+        }
     }
 
     struct file_output out;

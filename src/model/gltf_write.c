@@ -357,13 +357,15 @@ json_t *gltf_shape_json(struct gltf_looks *l, const struct gltf_shape *shape)
         json_t *names = json_array(), *coordinates = json_array();
         for (int t = 0; t < shape->target_count; t++)
             gltf_append(l->file, names, json_string(shape->targets[t].name));
-        for (int i = 0; shape->character && i < shape->character->coordinate_count; i++) {
+        for (int i = 0, first = 0; shape->character && i < shape->character->coordinate_count; i++) {
             const struct coordinate *c = &shape->character->coordinates[i];
             json_t *known =
                 json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency, "damping",
                           c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
-            const double scale = (double)shape->targets[2 * i].scale;
+            const double scale = (double)shape->targets[first].scale;
+            first += coordinate_parts(c);
             if (scale != 1) gltf_set(l->file, known, "scale", json_real(scale));
+            if (c->sq && isfinite(c->most)) gltf_set(l->file, known, "most", json_real(c->most));
             gltf_append(l->file, coordinates, known);
         }
         gltf_set(l->file, mesh, "extras",

@@ -104,7 +104,7 @@ struct gltf_shape {
     const uint32_t *indices;           ///< vertices of the file
     int index_count;                   ///< three a triangle
     const struct looks *looks;         ///< of these; NULL: they have no materials, and are no polygons
-    struct gltf_shape_target *targets; ///< of a character two a coordinate, Re Ñ and −Im Ñ, and then any others
+    struct gltf_shape_target *targets; ///< of a character the parts of its coordinates, then any others
     int target_count;
     const struct character *character; ///< its coordinates go into the extras; NULL: none
 };

@@ -6,21 +6,35 @@
 
 _Static_assert((int)MODEL_MAX_DRIVES <= (int)MORPH_MAX_COORDINATES, "a drive moves a coordinate");
 
+/// z of a drive at a value of its spline.
+static void find_weight(const struct drive *drive, const wiggly_value *x, bool stiff, double z[2])
+{
+    const double lag = stiff ? 0.0 : radians(drive->lag);
+    const double re = x->y + x->re * maths_cos(lag) + x->im * maths_sin(lag);
+    const double im = stiff ? 0.0 : x->im * maths_cos(lag) - x->re * maths_sin(lag);
+    z[0] = drive->amplitude * re;
+    z[1] = drive->amplitude * im;
+}
+
 void pose_character(const struct model_rig *rig, const struct figure *figure, const wiggly_value *values,
                     enum look look, float *weights)
 {
     for (int k = 0; k < rig->drive_count; k++) {
         const struct drive *drive = &rig->drives[k];
-        const wiggly_value *x = &values[k];
         const int coordinate = figure_find(figure, drive->name);
+        double z[2];
         if (coordinate < 0) continue;
         const struct coordinate *c = &figure->character.coordinates[coordinate];
-        const bool stiff = look == LOOK_STIFF;
-        const double lag = stiff ? 0.0 : radians(drive->lag);
-        const double re = x->y + x->re * maths_cos(lag) + x->im * maths_sin(lag);
-        const double im = stiff ? 0.0 : x->im * maths_cos(lag) - x->re * maths_sin(lag);
-        weights[c->target[0]] += (float)(drive->amplitude * re / c->scale);
-        weights[c->target[1]] += (float)(drive->amplitude * im / c->scale);
+        find_weight(drive, &values[k], look == LOOK_STIFF, z);
+        for (int p = 0; p < 2; p++) weights[c->target[p]] += (float)(z[p] / c->scale);
+    }
+    for (int k = 0; k < figure->character.coordinate_count; k++) { // curves go by the sum
+        const struct coordinate *c = &figure->character.coordinates[k];
+        const double z[2] = {c->scale * (double)weights[c->target[0]], c->scale * (double)weights[c->target[1]]};
+        double all[COORDINATE_PARTS];
+        if (c->sq) coordinate_weights(c, z, all, NULL);
+        for (int p = COORDINATE_STRAIGHT; p < coordinate_parts(c); p++)
+            weights[c->target[p]] = (float)(coordinate_sign(p) * all[p] / c->scale);
     }
 }
 
@@ -32,25 +46,45 @@ static void drive_turn(const struct drive *drive, double turn[2])
     turn[1] = -drive->amplitude * maths_sin(lag);
 }
 
-/// Adds z Ñ of a coordinate at a vertex (eq. 29, with more of them eq. 30).
-static void add_product(const struct coordinate *coordinate, int vertex, const double z[2], pin_pull c)
+/// z of a coordinate by the clip and all drives.
+static void find_sum(const struct model_rig *rig, const struct figure *figure, const struct morph *clip,
+                     const wiggly_value *values, int coordinate, double z[2])
 {
-    for (int k = 0; k < 3; k++) {
-        const double re = (double)coordinate->re[vertex][k], im = (double)coordinate->im[vertex][k];
-        c[k][0] += z[0] * re - z[1] * im;
-        c[k][1] += z[0] * im + z[1] * re;
+    z[0] = z[1] = 0;
+    for (int k = 0; k < clip->count; k++) {
+        for (int p = 0; p < 2 && clip->coordinate[k] == coordinate; p++) z[p] += (double)clip->weight[k][p];
+    }
+    for (int d = 0; d < rig->drive_count; d++) {
+        double of[2];
+        if (figure_find(figure, rig->drives[d].name) != coordinate) continue;
+        find_weight(&rig->drives[d], &values[d], false, of);
+        for (int p = 0; p < 2; p++) z[p] += of[p];
     }
 }
 
-/// How a spline moves a vertex: Σ A e^{−j·lag} Ñ over the coordinates that it drives.
-static void find_pull(const struct model_rig *rig, const struct figure *figure, int vertex, int spline, pin_pull c)
+/// How a spline moves a vertex from where the clip and the drives' values have it (`values` NULL: from rest): Σ A e^{−j·lag} Ñ over the
+/// coordinates that it drives. On a curve Ñ is the derivative: of a real function h of z it is ∂h/∂Re z − j ∂h/∂Im z.
+static void find_pull(const struct model_rig *rig, const struct figure *figure, const struct morph *clip,
+                      const wiggly_value *values, int vertex, int spline, pin_pull c)
 {
     for (int d = 0; d < rig->drive_count; d++) {
-        const int coordinate = rig->drives[d].spline == spline ? figure_find(figure, rig->drives[d].name) : -1;
-        double turn[2];
-        if (coordinate < 0) continue;
+        const int number = rig->drives[d].spline == spline ? figure_find(figure, rig->drives[d].name) : -1;
+        double turn[2], z[2] = {0}, weights[COORDINATE_PARTS], by[2][COORDINATE_PARTS];
+        if (number < 0) continue;
+        const struct coordinate *coordinate = &figure->character.coordinates[number];
         drive_turn(&rig->drives[d], turn);
-        add_product(&figure->character.coordinates[coordinate], vertex, turn, c);
+        if (values) find_sum(rig, figure, clip, values, number, z);
+        coordinate_weights(coordinate, z, weights, by);
+        for (int k = 0; k < 3; k++) {
+            double re = 0, im = 0;
+            for (int p = 0; p < coordinate_parts(coordinate); p++) {
+                const double part = coordinate_sign(p) * (double)coordinate->parts[p][vertex][k];
+                re += part * by[0][p];
+                im -= part * by[1][p];
+            }
+            c[k][0] += turn[0] * re - turn[1] * im;
+            c[k][1] += turn[0] * im + turn[1] * re;
+        }
     }
 }
 
@@ -68,8 +102,8 @@ static bool model_find(const struct posing *posing, const struct pin_query *quer
     const struct figure *figure = models_figure(posing->models, document, query->rig);
     if (!figure || vertex >= figure->character.vertex_count) return false;
     const struct gltf *gltf = &models_imported(posing->models, document, query->rig)->gltf;
-    const float *weights = posing_clip(posing, query->rig, sample, POSE_UNSEEN)->weights;
-    const struct morph clip = figure_morph(figure, weights + gltf->nodes[figure->character.node].first_weight);
+    const float *of = posing_clip(posing, query->rig, sample, POSE_UNSEEN)->weights;
+    const struct morph clip = figure_morph(figure, of + gltf->nodes[figure->character.node].first_weight);
     if (!rig_pose(posing, query->rig, sample, NULL, &posed)) return false;
     *point = (struct pin_point){.is_linear = read == rint(read)}; // in x of that sample
     for (int r = -1; (r = document_next_chain(document, query->rig, r)) >= 0;) {
@@ -78,29 +112,24 @@ static bool model_find(const struct posing *posing, const struct pin_query *quer
     }
 
     // Moved by its coordinates, in double precision.
-    const struct coordinate *coordinates = figure->character.coordinates;
     float matrix[16], way[3];
-    pin_pull shape = {{0}};
+    double shape[3];
     wiggly_value values[RIG_MAX_INPUTS];
     figure_carry(&posed.model, vertex, matrix, way);
     for (int k = 0; k < 3; k++) {
         point->size = maths_hypot(point->size, rig->scale * (double)(figure->hi[k] - figure->lo[k]));
-        shape[k][0] = (double)figure->character.position[vertex][k] + (double)way[k];
+        shape[k] = (double)figure->character.position[vertex][k] + (double)way[k];
     }
     point->slack = SLACK * point->size;
-    for (int k = 0; k < clip.count; k++) {
-        const double z[2] = {(double)clip.weight[k][0], (double)clip.weight[k][1]};
-        add_product(&coordinates[clip.coordinate[k]], vertex, z, shape);
-    }
     posing_values(posing, query->rig, sample, NULL, values);
-    for (int d = 0; d < rig->drive_count; d++) {
-        const int coordinate = figure_find(figure, rig->drives[d].name);
-        double turn[2];
-        if (coordinate < 0) continue;
-        drive_turn(&rig->drives[d], turn);
-        const double z[2] = {rig->drives[d].amplitude * values[d].y + turn[0] * values[d].re - turn[1] * values[d].im,
-                             turn[0] * values[d].im + turn[1] * values[d].re};
-        add_product(&coordinates[coordinate], vertex, z, shape);
+    for (int k = 0; k < figure->character.coordinate_count; k++) {
+        const struct coordinate *coordinate = &figure->character.coordinates[k];
+        double z[2], weights[COORDINATE_PARTS];
+        find_sum(rig, figure, &clip, values, k, z);
+        coordinate_weights(coordinate, z, weights, NULL);
+        for (int n = 0; n < 3 * coordinate_parts(coordinate); n++)
+            shape[n % 3] += coordinate_sign(n / 3) * weights[n / 3] * (double)coordinate->parts[n / 3][vertex][n % 3];
+        point->is_linear &= !coordinate->sq;
     }
 
     // Carried into the world.
@@ -114,11 +143,11 @@ static bool model_find(const struct posing *posing, const struct pin_query *quer
     }
     for (int k = 0; k < 3; k++) {
         point->at[k] = carried[3][k];
-        for (int j = 0; j < 3; j++) point->at[k] += carried[j][k] * shape[j][0];
+        for (int j = 0; j < 3; j++) point->at[k] += carried[j][k] * shape[j];
     }
     for (int i = 0; i < query->count; i++) {
         pin_pull pull = {{0}};
-        find_pull(rig, figure, vertex, query->splines[i], pull);
+        find_pull(rig, figure, &clip, values, vertex, query->splines[i], pull);
         for (int k = 0; k < 6; k++) {
             for (int j = 0; j < 3; j++) c[i][k / 2][k % 2] += carried[j][k / 2] * pull[j][k % 2];
         }
@@ -146,7 +175,7 @@ static void model_weigh(const struct posing *posing, int rig, const int *splines
             areas += area;
             for (int k = 0; k < 3; k++) {
                 pin_pull c = {{0}};
-                find_pull(model, figure, (int)corner[k], splines[i], c);
+                find_pull(model, figure, NULL, NULL, (int)corner[k], splines[i], c);
                 sum += area / 3 * pinning_square(c);
             }
         }
@@ -161,9 +190,13 @@ const struct pinning_functions model_pinning = {model_find, model_weigh};
 /// Samples, and blocks of samples, that are processed together.
 enum { BLOCK = 16, ROW = LOW_POINT_ROW / BLOCK };
 
-/// A driven coordinate: its weights at every sample, and their range in each block and in all.
+/// Pairs of a coordinate's parts: Re z and −Im z; of a curved one also Re z² and −Im z², and |z|² beside what has no weight.
+static const int pair[LOW_POINT_PAIRS][2] = {{0, 1}, {3, 4}, {2, 2}};
+enum { MOST_PAIRS = LOW_POINT_PAIRS * MODEL_MAX_DRIVES };
+
+/// A pair of parts: their weights at every sample, and their range in each block and in all.
 struct driven {
-    const struct coordinate *coordinate;
+    const float (*a)[3], (*b)[3];
     double *re, *im;
     double *re_range[2], *im_range[2];
     double re_all[2], im_all[2];
@@ -192,9 +225,9 @@ static void find_ranges(const double *x, int blocks, double *const range[2], dou
     }
 }
 
-/// A vertex's height by coordinate: a Re z − b Im z.
+/// A vertex's height by pair: a re − b im.
 struct moves {
-    double at_rest, a[MODEL_MAX_DRIVES], b[MODEL_MAX_DRIVES];
+    double at_rest, a[MOST_PAIRS], b[MOST_PAIRS];
 };
 
 /// Marks the blocks of a row in which a vertex may be lower than those found; returns whether there are any.
@@ -255,7 +288,7 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
     const struct figure *figure = models_figure(posing->models, posing->document, rig);
     const int samples = posing->evaluation->samples;
     const int blocks = low_point_samples(samples) / BLOCK;
-    struct driven driven[MODEL_MAX_DRIVES];
+    struct driven driven[MOST_PAIRS];
     struct moves moves;
     int count = 0;
     if (!figure) return false;
@@ -265,14 +298,17 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
     double *lowest = take_room(&room, BLOCK * blocks), *vertex = take_room(&room, BLOCK * blocks);
     double *highest = take_room(&room, blocks);
     for (int d = 0; d < model->drive_count; d++) {
-        const int coordinate = figure_find(figure, model->drives[d].name);
-        if (coordinate < 0) continue;
-        struct driven *one = &driven[count++];
-        *one = (struct driven){.coordinate = &figure->character.coordinates[coordinate],
-                               .re = take_room(&room, BLOCK * blocks),
-                               .im = take_room(&room, BLOCK * blocks),
-                               .re_range = {take_room(&room, blocks), take_room(&room, blocks)},
-                               .im_range = {take_room(&room, blocks), take_room(&room, blocks)}};
+        const int number = figure_find(figure, model->drives[d].name);
+        if (number < 0) continue;
+        const struct coordinate *coordinate = &figure->character.coordinates[number];
+        struct driven *const one = &driven[count], *const end = one + (coordinate->sq ? LOW_POINT_PAIRS : 1);
+        for (int n = 0; one + n < end; n++)
+            driven[count++] = (struct driven){.a = (const float(*)[3])coordinate->parts[pair[n][0]],
+                                              .b = (const float(*)[3])coordinate->parts[pair[n][1]],
+                                              .re = take_room(&room, BLOCK * blocks),
+                                              .im = take_room(&room, BLOCK * blocks),
+                                              .re_range = {take_room(&room, blocks), take_room(&room, blocks)},
+                                              .im_range = {take_room(&room, blocks), take_room(&room, blocks)}};
 
         // z at every sample, as in pose_character(); after the last sample it stays.
         const struct drive *drive = &model->drives[d];
@@ -282,9 +318,18 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
             const int at = i < samples ? i : samples - 1;
             one->re[i] = drive->amplitude * (curve->y[at] + curve->re[at] * c + curve->im[at] * s);
             one->im[i] = drive->amplitude * (curve->im[at] * c - curve->re[at] * s);
+            if (!coordinate->sq) continue;
+            double weights[COORDINATE_PARTS];
+            coordinate_weights(coordinate, (const double[2]){one->re[i], one->im[i]}, weights, NULL);
+            for (int n = 1; one + n < end; n++) {
+                one[n].re[i] = weights[pair[n][0]];
+                one[n].im[i] = pair[n][1] == pair[n][0] ? 0 : weights[pair[n][1]];
+            }
         }
-        find_ranges(one->re, blocks, one->re_range, one->re_all);
-        find_ranges(one->im, blocks, one->im_range, one->im_all);
+        for (struct driven *each = one; each < end; each++) {
+            find_ranges(each->re, blocks, each->re_range, each->re_all);
+            find_ranges(each->im, blocks, each->im_range, each->im_all);
+        }
     }
     for (int i = 0; i < BLOCK * blocks; i++) lowest[i] = ceiling, vertex[i] = -1;
     for (int b = 0; b < blocks; b++) highest[b] = ceiling;
@@ -293,8 +338,8 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
             model->position[1] + model->scale * ((double)figure->character.position[v][1] - (double)figure->lo[1]);
         double least = moves.at_rest; // a lower bound of the vertex's height
         for (int k = 0; k < count; k++) {
-            const double a = moves.a[k] = model->scale * (double)driven[k].coordinate->re[v][1];
-            const double b = moves.b[k] = model->scale * (double)driven[k].coordinate->im[v][1];
+            const double a = moves.a[k] = model->scale * (double)driven[k].a[v][1];
+            const double b = moves.b[k] = model->scale * (double)driven[k].b[v][1];
             least += a * driven[k].re_all[a < 0];
             least -= b * driven[k].im_all[b > 0];
         }

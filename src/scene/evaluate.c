@@ -637,6 +637,17 @@ static double put_bound(struct pinned *pinned, int b, int rig, int sample, doubl
     return point.size;
 }
 
+/// How far a bound is missed.
+static double bound_missed(const struct pinned *pinned, int b)
+{
+    const wiggly_bound *bound = &pinned->floors.bounds[b];
+    double missed = bound->least;
+    for (int i = 0; i < pinned->count; i++)
+        missed -= bound->c[i][0] * pinned->curves[i].re[bound->sample] -
+                  bound->c[i][1] * pinned->curves[i].im[bound->sample];
+    return missed;
+}
+
 /// Lowers a rig's floor where knots and pins hold the rig below it.
 static void find_sunk(struct pinned *pinned, int rig)
 {
@@ -693,12 +704,14 @@ static wiggly_status floors_solve(struct pinned *pinned, wiggly_status status)
                 if (!(deep > 0) || (i > 0 && floor_depth(pinned, r, i - 1) > deep)) continue;
                 if (i + 1 < end && floor_depth(pinned, r, i + 1) >= deep) continue;
                 const double size = put_bound(pinned, floors->count, r, i, floor_level(pinned, r, i));
-                bool is_known = false;
+                // One that is met while its vertex is deep gets another tangent of the vertex's curve.
+                bool is_missed = false;
                 for (int b = 0; b < floors->count; b++) {
-                    is_known |= floors->rig[b] == r && floors->bounds[b].sample == i &&
-                                floors->vertex[b] == floors->vertex[floors->count];
+                    is_missed |= floors->rig[b] == r && floors->bounds[b].sample == i &&
+                                 floors->vertex[b] == floors->vertex[floors->count] &&
+                                 bound_missed(pinned, b) > deep / 2;
                 }
-                if (!(deep > DEEP * size) || is_known) continue;
+                if (!(deep > DEEP * size) || is_missed) continue;
                 floors->count++;
                 any = true;
             }

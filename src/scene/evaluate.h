@@ -40,7 +40,8 @@ static inline int low_point_samples(int samples)
     return (samples + LOW_POINT_ROW - 1) / LOW_POINT_ROW * LOW_POINT_ROW;
 }
 
-enum { LOW_POINT_ROOM = 3 * (MODEL_MAX_DRIVES + 1) }; ///< numbers needed for finding them, per such sample
+enum { LOW_POINT_PAIRS = 3 };                                           ///< of weights, of a curved coordinate
+enum { LOW_POINT_ROOM = 3 * (LOW_POINT_PAIRS * MODEL_MAX_DRIVES + 1) }; ///< numbers for them, per such sample
 
 /// A pin of a rig, and the splines whose pulls on its point are wanted.
 struct pin_query {

@@ -3,8 +3,9 @@
 #include "analysis/analysis.h"
 #include "analysis/spectrum.h"
 #include "commands/commands.h"
-#include "model/character.h"
+#include "model/figure.h"
 #include "model/motion.h"
+#include "model/vector.h"
 #include "near.h"
 #include "temporary.h"
 #include "with_lapack.h"
@@ -116,7 +117,7 @@ TEST(eigenvalues_and_coordinates_agree_with_numpy)
     assert_near(shares[1], r.pca2, 1e-10);
     pool_free(&spectrum.pool);
 
-    const struct analysis_plan plan = {ANALYSIS_CPCA, 24, 2, up, NULL, 0};
+    const struct analysis_plan plan = {ANALYSIS_CPCA, 24, 2, up, NULL, 0, false};
     struct analysis analysis;
     assert_done(analysis_create(&analysis, &lapack, &motion, &plan, &error));
     for (int k = 0; k < 2; k++) {
@@ -186,8 +187,8 @@ TEST(frequency_damping_and_gauge)
 {
     struct ringing r = {0.4, 24};
     struct analysis analysis;
-    analyse(&analysis, (struct analysis_plan){ANALYSIS_CPCA, 24, 1, NULL, NULL, 0}, 96, RINGING_VERTICES, ringing,
-            &r);
+    analyse(&analysis, (struct analysis_plan){ANALYSIS_CPCA, 24, 1, NULL, NULL, 0, false}, 96, RINGING_VERTICES,
+            ringing, &r);
     const struct component *c = analysis.components;
     assert_near(c->frequency, 1.3, 0.01);
     assert_near(c->damping, 0.05, 0.002);
@@ -223,7 +224,7 @@ TEST(lags_of_what_trails)
 {
     double lag = M_PI / 3;
     struct analysis analysis;
-    analyse(&analysis, (struct analysis_plan){ANALYSIS_CPCA, 30, 1, up, NULL, 0}, 120, 40, bobbing, &lag);
+    analyse(&analysis, (struct analysis_plan){ANALYSIS_CPCA, 30, 1, up, NULL, 0, false}, 120, 40, bobbing, &lag);
     const struct component *bob = analysis.components;
     assert_near(carg(bob->shape[0][1] * conj(bob->shape[1][1])), lag, 0.01);
     assert_near(bob->last_lag - bob->first_lag, 60, 0.6);
@@ -273,8 +274,8 @@ TEST(one_complex_component_finds_a_travelling_wave)
     struct analysis analysis;
     uint32_t seed = 7;
     double left = 0, signal = 0;
-    analyse(&analysis, (struct analysis_plan){ANALYSIS_CPCA, 24, 1, NULL, NULL, 0}, WAVE_FRAMES, VERTICES, noisy_wave,
-            &seed);
+    analyse(&analysis, (struct analysis_plan){ANALYSIS_CPCA, 24, 1, NULL, NULL, 0, false}, WAVE_FRAMES, VERTICES,
+            noisy_wave, &seed);
     const struct component *c = analysis.components;
     for (int n = 0; n < WAVE_FRAMES * COLUMNS; n++) {
         const int i = n / COLUMNS, j = n % COLUMNS;
@@ -324,7 +325,7 @@ TEST(what_cannot_be_analysed_gets_one_sentence)
         {4097, 0, "rests", "expected 8 to 4096 frames, got 4097"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const struct analysis_plan plan = {ANALYSIS_POLES, 24, 1, NULL, NULL, rows[i].first};
+        const struct analysis_plan plan = {ANALYSIS_POLES, 24, 1, NULL, NULL, rows[i].first, false};
         char how[8];
         struct motion motion;
         struct analysis analysis;
@@ -340,7 +341,7 @@ TEST(odd_motions_give_finite_numbers)
 {
     char how[] = "moves";
     struct analysis analysis;
-    analyse(&analysis, (struct analysis_plan){ANALYSIS_CPCA, 24, ANALYSIS_FRAMES_MIN, NULL, NULL, 0},
+    analyse(&analysis, (struct analysis_plan){ANALYSIS_CPCA, 24, ANALYSIS_FRAMES_MIN, NULL, NULL, 0, false},
             ANALYSIS_FRAMES_MIN, 1, oddly, how);
     assert_int_equal(analysis.count, ANALYSIS_FRAMES_MIN);
     for (int k = 0; k < analysis.count; k++) {
@@ -445,8 +446,8 @@ TEST(poles_are_found)
                     memcpy(p.frequency, rows[row].frequency, sizeof p.frequency);
                     memcpy(p.size, rows[row].size, sizeof p.size);
                     grow(&p, (uint32_t)seed);
-                    analyse(&a, (struct analysis_plan){ANALYSIS_POLES, p.fps, p.count, NULL, NULL, 0}, p.frames,
-                            VERTICES, planted, &p);
+                    analyse(&a, (struct analysis_plan){ANALYSIS_POLES, p.fps, p.count, NULL, NULL, 0, false},
+                            p.frames, VERTICES, planted, &p);
                     for (int k = 0; k < p.count; k++) {
                         const struct component *c = component_near(&a, p.frequency[k]);
                         const double f = c->frequency / p.frequency[k] - 1, d = c->damping / *damping - 1,
@@ -482,7 +483,7 @@ TEST(few_knots_move_it_so)
     for (int forced = 0; forced < 2; forced++) {
         struct analysis a;
         struct knots knots;
-        analyse(&a, (struct analysis_plan){ANALYSIS_POLES, p.fps, 1, NULL, NULL, 0}, p.frames, VERTICES,
+        analyse(&a, (struct analysis_plan){ANALYSIS_POLES, p.fps, 1, NULL, NULL, 0, false}, p.frames, VERTICES,
                 forced ? driven : planted, &p);
         const struct component *c = a.components;
         assert_near(c->frequency, forced ? 2.7 : 2, 0.02);
@@ -562,8 +563,8 @@ static void analyse_kicked(struct analysis *a, struct kicked *body, int first)
             z *= turn;
         }
     }
-    analyse(a, (struct analysis_plan){ANALYSIS_POLES, 48, 3, NULL, NULL, first}, KICKED_FRAMES, VERTICES, kicked,
-            body);
+    analyse(a, (struct analysis_plan){ANALYSIS_POLES, 48, 3, NULL, NULL, first, false}, KICKED_FRAMES, VERTICES,
+            kicked, body);
 }
 
 TEST(what_was_driven_has_its_poles_where_it_swings_freely)
@@ -606,10 +607,52 @@ static double quick(int i, int j, void *user)
 TEST(motion_near_half_the_rate_is_told)
 {
     struct analysis a;
-    analyse(&a, (struct analysis_plan){ANALYSIS_POLES, 48, 2, NULL, NULL, 0}, 192, VERTICES, quick, NULL);
+    analyse(&a, (struct analysis_plan){ANALYSIS_POLES, 48, 2, NULL, NULL, 0, false}, 192, VERTICES, quick, NULL);
     assert_near(a.fast_share, 1 / 3.0, 0.02); // powers go as 1 / damping
     assert_near(component_near(&a, 22)->frequency, 22, 0.01);
     pool_free(&a.pool);
+}
+
+// --- curves
+
+/// A rod that swings about its lower end, and the noise on it: 24 frames a second, 1.3 Hz.
+struct rod {
+    double angle, damping, noise; ///< radians at first; metres
+    uint32_t state;
+};
+
+static double rod_at(int i, int j, void *user)
+{
+    struct rod *r = user;
+    const double decay = 2 * M_PI * 1.3 / 24 * i, along = (j / 3 + 1.0) / VERTICES;
+    const double angle = r->angle * exp(-r->damping * decay) * cos(decay * sqrt(1 - r->damping * r->damping));
+    return (j % 3 == 0 ? along * sin(angle) : j % 3 == 1 ? along * cos(angle) : 0) + r->noise * bell(&r->state);
+}
+
+/// Points on an arc are near it, where the largest swing is an eighth of a turn too; a small swing has no curves, nor has one whose curves cannot be
+/// told from noise. All lies on the arc: the rest, too.
+TEST(what_swings_on_an_arc_is_curved)
+{
+    static const struct {
+        double degrees, damping, noise, straight, left; ///< errors: at least, at most
+        bool is_straight;                               ///< as asked for
+    } rows[] = {
+        {50, 0.03, 0, 0.2, 0.03, false},    {50, 0.05, 0, 0.2, 0.035, false}, {30, 0.03, 0, 0.1, 0.015, false},
+        {50, 0.03, 0.01, 0.2, 0.08, false}, {50, 0.03, 0, 0.2, 0.21, true},   {5, 0.03, 0, 0, 0.03, false},
+        {10, 0.03, 0.1, 0, 1, false},
+    };
+    for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {
+        struct rod r = {rows[row].degrees * M_PI / 180, rows[row].damping, rows[row].noise, 3};
+        struct analysis a;
+        analyse(&a, (struct analysis_plan){.fps = 24, .modes = 1, .straight = rows[row].is_straight}, 96, VERTICES,
+                rod_at, &r);
+        const struct component *c = a.components;
+        if (!(a.straight >= rows[row].straight && a.left <= rows[row].left && a.left <= a.straight))
+            fail_msg("row %zu: error %g, straight %g", row, a.left, a.straight);
+        assert_int_equal(c->lift != NULL, rows[row].straight > 0 && !rows[row].is_straight);
+        for (int k = 0; c->lift && k < 3; k++) assert_near(a.middle[VERTICES - 1][k], k == 1, 0.05);
+        pool_free(&a.pool);
+    }
 }
 
 // --- how a base carries a body is taken out of its motion
@@ -844,6 +887,59 @@ TEST(what_analyze_says_is_true)
         }
         character_free(&character);
     }
+}
+
+/// The volume of a coordinate's character at z, as a share of that at rest, minus 1.
+static double growth(const struct figure *figure, double re, double im)
+{
+    struct morph morph = {0};
+    const uint32_t *corner = figure->character.indices;
+    double volume[2] = {0};
+    morph_add(&morph, figure, 0, (const double[2]){re, im});
+    for (int moved = 0; moved < 2; moved++, morph.count = 1) {
+        morph.count = moved;
+        for (int i = 0; i < figure->character.index_count; i += 3) {
+            float at[3][3];
+            for (int c = 0; c < 3; c++) morph_vertex(figure, &morph, (int)corner[i + c], at[c], NULL);
+            const vec3s normal = glms_vec3_cross(vec3_from(at[1]), vec3_from(at[2]));
+            volume[moved] += (double)glms_vec3_dot(vec3_from(at[0]), normal) / 6;
+        }
+    }
+    return volume[1] / volume[0] - 1;
+}
+
+/// The bear that swings to the side, as simulated by default but coarser, keeps its volume at twice what was seen: straight shapes make it 8 % larger.
+TEST(a_bear_keeps_its_volume)
+{
+    char *mesh = strdup(temporary_path("bear.obj")), *motion = strdup(temporary_path("bear.npy")),
+         *out = strdup(temporary_path("bear.glb"));
+    struct character bear;
+    assert_done(character_read("assets/models/creature.glb", &bear, &error));
+    const struct surface surface = {.position = bear.position,
+                                    .vertex_count = bear.vertex_count,
+                                    .indices = bear.indices,
+                                    .index_count = bear.index_count};
+    assert_done(obj_write(mesh, &surface, &error));
+    character_free(&bear);
+    assert_int_equal(
+        command_simulate(14, (char *[]){"simulate", mesh, "--drive", "none", "--shake", "side", "--tets", "400",
+                                        "--seconds", "2", "--accuracy", "0.05", "-o", motion, NULL}),
+        0);
+    for (int straight = 0; straight < 2; straight++) {
+        assert_int_equal(command_analyze(6 + straight, (char *[]){"analyze", motion, "--modes", "2", "-o", out,
+                                                                  straight ? "--straight" : NULL, NULL}),
+                         0);
+        assert_done(character_read(out, &bear, &error));
+        struct figure figure;
+        figure_create(&figure, &bear);
+        assert_int_equal(figure.character.coordinates[0].sq == NULL, straight);
+        double most = 0;
+        for (int quarter = 0; quarter < 4; quarter++)
+            most = fmax(most, fabs(growth(&figure, 2 * cos(quarter * M_PI / 2), 2 * sin(quarter * M_PI / 2))));
+        if (straight ? most < 0.07 : most > 0.03) fail_msg("%g %% larger", 100 * most);
+        figure_free(&figure);
+    }
+    free(mesh), free(motion), free(out);
 }
 
 TESTS_BETWEEN(with_lapack_load, with_lapack_unload)

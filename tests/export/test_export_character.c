@@ -362,18 +362,15 @@ EXPORT_TEST(usd_moves_as_the_stage_does)
     static const struct {
         const char *scene, *rig;
         bool as_shown;
-    } rows[] = {{"dog", NULL, false},
-                {"dog", NULL, true},
-                {"tail", NULL, false},
-                {"character", NULL, false},
-                {"compositing", "nodder", false}};
+    } rows[] = {{"dog", NULL, false},       {"dog", NULL, true},     {"tail", NULL, false},
+                {"character", NULL, false}, {"curved", NULL, false}, {"compositing", "nodder", false}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct export_options options = {
             .has_frames = true, .last = 4, .substeps = 1, .rig = rows[i].rig, .as_shown = rows[i].as_shown};
         char path[128];
         size_t size;
         snprintf(path, sizeof path, "assets/scenes/%s.json", rows[i].scene);
-        struct opened scene = open_scene(path);
+        struct opened scene = strcmp(rows[i].scene, "curved") == 0 ? open_curved() : open_scene(path);
         if (i == 1) scene.document->rigs[0]->model.scale = 0.3, scene.document->rigs[0]->model.turn = 30;
         char *text = bytes_of(export_opened(&scene, "it.usda", options), &size);
         options.as_shown = i > 0; // others are on the stage in any case

@@ -47,6 +47,9 @@ static void make_character(struct character *c)
         c->coordinates[n / 12].re[n / 3 % 4][n % 3] = (float)sin(n);
         c->coordinates[n / 12].im[n / 3 % 4][n % 3] = (float)cos(n);
     }
+    assert_true(character_curve(c, 0));
+    c->coordinates[0].most = 1.25;
+    for (int n = 0; n < 36; n++) c->coordinates[0].parts[2 + n / 12][n / 3 % 4][n % 3] = (float)sin(3 * n);
     c->coordinates[0].name = strdup("up");
     c->coordinates[1].name = strdup("g\xc3\xb6 \"left\"");
     c->coordinates[0].frequency = 1.8 / 0.7;
@@ -87,12 +90,13 @@ CHARACTER_TEST(what_is_written_reads_back_equal)
     assert_memory_equal(in.indices, c->indices, 12 * sizeof *in.indices);
     for (int i = 0; i < 2; i++) {
         const struct coordinate *a = &in.coordinates[i], *b = &c->coordinates[i];
-        const double is[] = {a->frequency, a->damping, a->explained, a->pca1, a->pca2};
-        const double was[] = {b->frequency, b->damping, b->explained, b->pca1, b->pca2};
+        const double is[] = {a->frequency, a->damping, a->explained, a->pca1, a->pca2, i == 0 ? a->most : 0};
+        const double was[] = {b->frequency, b->damping, b->explained, b->pca1, b->pca2, i == 0 ? 1.25 : 0};
         assert_string_equal(a->name, b->name);
-        assert_memory_equal(a->re, b->re, 4 * sizeof *a->re);
-        assert_memory_equal(a->im, b->im, 4 * sizeof *a->im);
-        for (int k = 0; k < 5; k++) assert_near(is[k], was[k], 0);
+        assert_int_equal(coordinate_parts(a), i == 0 ? COORDINATE_PARTS : COORDINATE_STRAIGHT);
+        for (int p = 0; p < coordinate_parts(a); p++)
+            assert_memory_equal(a->parts[p], b->parts[p], 4 * sizeof *a->re);
+        for (int k = 0; k < 6; k++) assert_near(is[k], was[k], 0);
     }
     for (int i = 0; i < 4; i++) {
         double length = 0, outwards = 0;

@@ -21,12 +21,22 @@ static void stir(struct character *character)
     }
 }
 
-/// D(j) = Re(Σ A_k e^{−j·lag_k} x_k Ñ_{k,j}), computed as it is written; real parts alone lose what lags. The box is that of all vertices, and it
-/// stands on the rig's position.
+/// |z|² A + Re(z² B), where |z| is above `most` with most · (2 |z| − most) in place of |z|².
+static double curve_of(const struct coordinate *c, double complex z, int vertex, int axis)
+{
+    const double r = cabs(z), square = r > c->most ? c->most * (2 * r - c->most) : r * r;
+    const double complex b = (double)c->re2[vertex][axis] + I * (double)c->im2[vertex][axis];
+    return square * (double)c->sq[vertex][axis] + square * creal(z * z / (r * r) * b);
+}
+
+/// D(j) = Re(Σ A_k e^{−j·lag_k} x_k Ñ_{k,j}) and curves, computed as it is written; real parts alone lose what lags. The box is that of all vertices,
+/// and it stands on the rig's position.
 TEST(positions_are_those_of_equation_30)
 {
     struct character character = puppet_character(0.2f, 3);
     stir(&character);
+    puppet_curve(&character, 2, 0.3, 0.5); // less than there is
+    puppet_curve(&character, 0, 0.3, INFINITY);
     struct imported ball = puppet_imported(&character);
     const struct figure *figure = &ball.figure;
     const struct model_rig rig = {.drives = (struct drive[]){{.name = "c", .amplitude = 0.7, .lag = 40},
@@ -57,7 +67,9 @@ TEST(positions_are_those_of_equation_30)
                                         *a = &figure->character.coordinates[0];
                 const double complex sum = 0.7 * values[stiff][0] * ((double)c->re[i][k] + I * (double)c->im[i][k]) -
                                            1.5 * values[stiff][1] * ((double)a->re[i][k] + I * (double)a->im[i][k]);
-                assert_near((double)p[k], (double)figure->character.position[i][k] + creal(sum), 1e-5);
+                const double curves =
+                    curve_of(c, 0.7 * values[stiff][0], i, k) + curve_of(a, -1.5 * values[stiff][1], i, k);
+                assert_near((double)p[k], (double)figure->character.position[i][k] + creal(sum) + curves, 1e-5);
                 assert_near((double)place[k], (double)(p[k] + posed.model.root[12 + k]), 1e-6);
                 most[k] = fmax(most[k], (double)p[k]);
                 least[k] = fmin(least[k], (double)p[k]);
@@ -72,8 +84,46 @@ TEST(positions_are_those_of_equation_30)
     imported_free(&ball);
 }
 
+/// Curves of 0 change no bit; and weights are continuous and once differentiable, also at `most`: small changes of z are what `by` says.
+TEST(curves_of_zero_are_none_and_curves_are_smooth)
+{
+    struct character character = puppet_character(0.2f, 2);
+    stir(&character);
+    puppet_curve(&character, 1, 0, 0.5);
+    struct figure figure = puppet_figure(&character);
+    const double z[] = {1.3, -0.7};
+    struct morph straight = {0}, curved = {0};
+    morph_add(&straight, &figure, 0, z);
+    morph_add(&curved, &figure, 1, z);
+    for (int p = 0; p < COORDINATE_STRAIGHT; p++)
+        memcpy(figure.character.coordinates[1].parts[p], figure.character.coordinates[0].parts[p],
+               (size_t)figure.character.vertex_count * sizeof(float[3]));
+    for (int i = 0; i < figure.character.vertex_count; i++) {
+        float p[2][3];
+        morph_vertex(&figure, &straight, i, p[0], NULL);
+        morph_vertex(&figure, &curved, i, p[1], NULL);
+        assert_memory_equal(p[0], p[1], sizeof p[0]);
+    }
+    const struct coordinate *c = &figure.character.coordinates[1];
+    for (int i = 0; i < 60; i++) {
+        static const double sizes[] = {0, 0.2, 0.4999999, 0.5, 0.5000001, 3}, step = 1e-7;
+        const double at[] = {sizes[i % 6] * cos(i), sizes[i % 6] * sin(i)};
+        double here[COORDINATE_PARTS], there[COORDINATE_PARTS], by[2][COORDINATE_PARTS];
+        coordinate_weights(c, at, here, by);
+        for (int k = 0; k < 2; k++) {
+            for (int sign = -1; sign <= 1; sign += 2) {
+                const double moved[] = {at[0] + (k == 0) * sign * step, at[1] + (k == 1) * sign * step};
+                coordinate_weights(c, moved, there, NULL);
+                for (int p = 0; p < COORDINATE_PARTS; p++)
+                    assert_near((there[p] - here[p]) / (sign * step), by[k][p], 1e-6);
+            }
+        }
+    }
+    figure_free(&figure);
+}
+
 /// A deformation that is linear in space has the cofactors of 1 + Re(z M) everywhere: stretched, sheared and squeezed. A file's targets turn
-/// normals likewise, where it is small.
+/// normals likewise, where it is small. The same where it is curved.
 TEST(normals_follow_the_deformation)
 {
     static const float re[3][3] = {{0.5f, 0.3f, 0}, {0, 0.8f, -0.2f}, {0.1f, 0, -0.4f}};
@@ -83,6 +133,15 @@ TEST(normals_follow_the_deformation)
         const int v = i / 9, r = i % 9 / 3, c = i % 3;
         character.coordinates[0].re[v][r] += re[r][c] * character.position[v][c];
         character.coordinates[0].im[v][r] += im[r][c] * character.position[v][c];
+    }
+    assert_true(character_curve(&character, 0));
+    struct coordinate *curved = character.coordinates;
+    curved->most = INFINITY;
+    for (int i = 0; i < 9 * character.vertex_count; i++) {
+        const int v = i / 9, r = i % 9 / 3, c = i % 3;
+        curved->sq[v][r] += 0.5f * im[c][r] * character.position[v][c];
+        curved->re2[v][r] += 0.5f * re[c][r] * character.position[v][c];
+        curved->im2[v][r] -= 0.25f * im[r][c] * character.position[v][c];
     }
     struct figure figure = puppet_figure(&character);
     const char *path = temporary_path("normals.glb");
@@ -95,14 +154,17 @@ TEST(normals_follow_the_deformation)
     float(*posed)[3] = malloc(2 * (size_t)figure.character.vertex_count * sizeof *posed);
     float(*normals)[3] = posed + figure.character.vertex_count;
     for (int small = 0; small < 2; small++) { // targets of a file are exact to first order
-        const float size = small ? 0.02f : 1;
-        const struct morph morph = {.count = 1, .weight = {{0.8f * size, -0.6f * size}}};
+        const float size = small ? 0.02f : 1, square = size * size;
+        struct morph morph = {0};
+        morph_add(&morph, &figure, 0, (const double[2]){0.8 * (double)size, -0.6 * (double)size});
         mat3 m, cofactors; // columns
         for (int i = 0; i < 9; i++)
-            m[i % 3][i / 3] = (float)(i % 4 == 0) + size * (0.8f * re[i / 3][i % 3] + 0.6f * im[i / 3][i % 3]);
+            m[i % 3][i / 3] = (float)(i % 4 == 0) + size * (0.8f * re[i / 3][i % 3] + 0.6f * im[i / 3][i % 3]) +
+                              square * (0.5f * im[i % 3][i / 3] + 0.28f * 0.5f * re[i % 3][i / 3] -
+                                        0.96f * 0.25f * im[i / 3][i % 3]);
         glm_mat3_inv(m, cofactors);
         glm_mat3_transpose(cofactors); // but for the determinant, which is positive
-        for (int k = 0; k < 2; k++) pose.weights[k] = morph.weight[0][k];
+        for (int k = 0; k < COORDINATE_PARTS; k++) pose.weights[k] = (k == 4 ? -1 : 1) * morph.weight[0][k];
         gltf_pose_vertices(&gltf, &pose, 0, posed, normals);
         for (int i = 0; i < figure.character.vertex_count; i++) {
             float p[3], n[3];
@@ -111,6 +173,7 @@ TEST(normals_follow_the_deformation)
             glm_mat3_mulv(cofactors, figure.character.normal[i], expected);
             glm_vec3_normalize(expected);
             assert_near(glm_vec3_dot(expected, n), 1.0, 0.002); // 3.6°
+            for (int k = 0; k < 3; k++) assert_near(posed[i][k], p[k], 1e-6);
             for (int k = 0; k < 3 && small; k++) assert_near(normals[i][k], expected[k], 0.003);
         }
     }
@@ -223,9 +286,21 @@ TEST(paint_turns_and_scales_coordinates)
             made.coordinates[0].im[i][k] = s * re + c * im;
         }
     }
+    puppet_curve(&character, 0, 0.1, 0.5);
+    assert_true(character_curve(&made, 0));
+    made.coordinates[0].most = 0.5;
+    for (int i = 0; i < 3 * vertices; i++) { // |z|² A and z² B with z e^{a + jψ} for z
+        const int v = i / 3, k = i % 3;
+        const struct coordinate *from = character.coordinates, *to = made.coordinates;
+        const float size = expf(2 * paint[v][0]), c = size * cosf(2 * paint[v][1]), s = size * sinf(2 * paint[v][1]);
+        to->sq[v][k] = size * from->sq[v][k];
+        to->re2[v][k] = c * from->re2[v][k] - s * from->im2[v][k];
+        to->im2[v][k] = s * from->re2[v][k] + c * from->im2[v][k];
+    }
     struct figure plain = puppet_figure(&character), expected = puppet_figure(&made);
     struct painted *painted = painted_create(&plain);
-    const struct morph morph = {1, {0}, {{0.7f, -0.6f}}};
+    struct morph morph = {0};
+    morph_add(&morph, &plain, 0, (const double[2]){0.7, -0.6});
     assert_non_null(painted);
     for (int turn = 0; turn < 3; turn++) { // none, some, the same
         const uint64_t before = painted->figure.version;
@@ -275,10 +350,11 @@ static struct document *scene_of(const char *rigs, const char *model)
 #define A_AND_B                                                                                                      \
     "{\"name\": \"a\", \"spline\": \"s\", \"lag\": 30}, {\"name\": \"b\", \"spline\": \"t\", \"amplitude\": 0.5}"
 
-static const char *write_ball(const char *name, float cell, int coordinates)
+static const char *write_ball(const char *name, float cell, int coordinates, int curved)
 {
     struct character ball = puppet_character(cell, coordinates);
     stir(&ball);
+    for (int k = 0; k < curved; k++) puppet_curve(&ball, k, 0.5, 0.3);
     for (int k = 0; k < coordinates; k++) {
         ball.coordinates[k].frequency = 1.23456;
         ball.coordinates[k].damping = 0.0712345;
@@ -311,11 +387,10 @@ static double check_vertices(const struct posing *posing, int sample, int lowest
     return least;
 }
 
-/// At each sample the lowest vertex is the lowest of all, but none above the ceiling.
-TEST(the_lowest_vertex_of_each_sample)
+static void find_lowest(int curved)
 {
     const double ceilings[] = {9, -0.05, -9};
-    struct document *document = scene_of(DRIVEN(A_AND_B), write_ball("low.glb", 0.1f, 2));
+    struct document *document = scene_of(DRIVEN(A_AND_B), write_ball("low.glb", 0.1f, 2, curved));
     struct models *models = models_create();
     struct evaluation evaluation = {.models = models_source(models)};
     assert_done(models_update(models, document, &error));
@@ -343,6 +418,12 @@ TEST(the_lowest_vertex_of_each_sample)
     evaluation_free(&evaluation);
     models_destroy(models);
     document_destroy(document);
+}
+
+/// At each sample the lowest vertex is the lowest of all, but none above the ceiling; with one, two or no curved coordinates.
+TEST(the_lowest_vertex_of_each_sample)
+{
+    for (int curved = 0; curved <= 2; curved++) find_lowest(curved);
 }
 
 /// The scene stays as it is, the first of all troubles is said in a sentence, and what can be read is there.
@@ -376,7 +457,7 @@ TEST(models_that_do_not_suit_their_scene)
                                      ", \"pins\": [{\"frame\": 2.5, \"joint\": 7, \"to\": [0, 0, 0]}]"),
          "", false},
     };
-    const char *ball = write_ball("ball.glb", 0.2f, 2);
+    const char *ball = write_ball("ball.glb", 0.2f, 2, 0);
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         struct document *document = scene_of(rows[r].rigs, ball);
         struct models *models = models_create();
@@ -396,7 +477,7 @@ TEST(models_that_do_not_suit_their_scene)
 /// another model is said and left.
 TEST(models_follow_files_and_paint)
 {
-    struct document *document = scene_of(DRIVEN(A_AND_B) ", " DRIVEN(A_AND_B), write_ball("twins.glb", 0.2f, 2));
+    struct document *document = scene_of(DRIVEN(A_AND_B) ", " DRIVEN(A_AND_B), write_ball("twins.glb", 0.2f, 2, 0));
     struct models *models = models_create();
     assert_done(models_update(models, document, &error));
     assert_true(models_suit(models, document));
@@ -419,7 +500,7 @@ TEST(models_follow_files_and_paint)
     assert_near(painted->character.coordinates[1].re[7][1], plain->character.coordinates[1].re[7][1], 1e-5);
     assert_done(models_update(models, document, &error));
     assert_true(models_figure(models, document, 0)->id == id);
-    write_ball("twins.glb", 0.1f, 2);
+    write_ball("twins.glb", 0.1f, 2, 0);
     assert_refusal(models_update(models, document, &error), "paint: expected paint for the 2 coordinates of ");
     assert_true(models_figure(models, document, 0)->id != id &&
                 models_figure(models, document, 0)->character.vertex_count > vertices);
@@ -433,7 +514,7 @@ TEST(models_follow_files_and_paint)
 TEST(a_soft_character_opens_as_a_scene)
 {
     struct document *document;
-    assert_done(document = import_scene(write_ball("soft.glb", 0.2f, 2), &error));
+    assert_done(document = import_scene(write_ball("soft.glb", 0.2f, 2, 0), &error));
     const struct model_rig *rig = &document->rigs[0]->model;
     assert_int_equal(document->spline_count, 1);
     const struct spline *spline = document->splines[0];

@@ -1,5 +1,6 @@
 /// Pins and floors of whole scenes: points of characters, tails and chains are where they must be and no vertex is below its floor, whatever
 /// was edited before; and a motion is a continuous function of where a pin is to be.
+#include "puppet.h"
 #include "stand.h"
 #include "temporary.h"
 #include "world.h"
@@ -7,15 +8,31 @@
 static struct document *document_of(const struct stand *stand) { return stand->opened.document; }
 
 /// A scene of those splines and rigs; the text has %s for the folder of models.
-static struct stand open_text(const char *text)
+static struct stand open_in(const char *models, const char *text)
 {
     struct stand stand = {0};
     char folder[PATH_LIMIT], filled[8192];
-    if (!realpath("assets/models", folder)) fail_msg("no assets");
+    if (!realpath(models, folder)) fail_msg("no models");
     snprintf(filled, sizeof filled, json(text), folder); // NOLINT: a format of this file
     stand_open(&stand, temporary_file("stand.json", filled, strlen(filled)));
     stand_solve(&stand);
     return stand;
+}
+
+static struct stand open_text(const char *text) { return open_in("assets/models", text); }
+
+/// The same with a creature whose coordinates are curved.
+static struct stand open_curved(const char *text)
+{
+    static const double most[] = {1, 1, 11, 1, 4, 1};
+    struct character creature;
+    char folder[PATH_LIMIT];
+    assert_done(character_read("assets/models/creature.glb", &creature, &error));
+    assert_int_equal(creature.coordinate_count, sizeof most / sizeof *most);
+    for (int k = 0; k < creature.coordinate_count; k++) puppet_curve(&creature, k, 0.02 / most[k] / most[k], most[k]);
+    snprintf(folder, sizeof folder, "%s", temporary_path(""));
+    puppet_write(&creature, temporary_path("creature.glb"));
+    return open_in(folder, text);
 }
 
 static struct stand open_path(const char *path)
@@ -40,6 +57,26 @@ static void assert_same_as_whole(struct stand *stand)
     }
     evaluation_free(&whole);
 }
+
+/// A creature and a tail share a spline; another tail, on a base that moves, follows what moves the creature.
+static const char zoo[] =
+    "{'frames': [0, 60], 'splines': [{'name': 'up', 'frequency': 1.5, 'damping': 0.1, 'knots': [{'frame': 0, "
+    "'value': 0.2}, {'frame': 20, 'value': 1}]}, {'name': 'side', 'frequency': 1, 'damping': 0.1, 'equilibrium': "
+    "0.3, 'knots': [{'frame': 5, 'value': -0.5}]}, {'name': 'sway', 'frequency': 0.8, 'damping': 0.1, 'knots': "
+    "[{'frame': 50, 'value': 0.1}]}, {'name': 'after', 'frequency': 2, 'damping': 0.2, 'equilibrium': {'spline': "
+    "'up'}}, {'name': 'east', 'mode': 'cubic', 'knots': [{'frame': 9, 'value': 0.1}]}, {'name': 'south', 'mode': "
+    "'cubic', 'knots': [{'frame': 9, 'value': -0.1}]}], 'rigs': [{'type': 'character', 'name': 'creature', 'model': "
+    "'%s/creature.glb', 'position': [0.5, 1, -0.25], 'coordinates': [{'name': 'up-3', 'spline': 'up', 'amplitude': "
+    "11, 'lag': 40}, {'name': 'side-2', 'spline': 'side', 'amplitude': 4, 'lag': -10}]}, {'type': 'tail', 'name': "
+    "'shared', 'joints': 10, 'position': [1, 0.5, 0], 'channels': [{'spline': 'side', 'gain': 6}, {'spline': 'sway', "
+    "'axis': 'up', 'gain': 7}]}, {'type': 'tail', 'name': 'own', 'joints': 12, 'position': [{'spline': 'east'}, "
+    "{'spline': 'up'}, {'spline': 'south'}], 'rest': 3, 'channels': [{'spline': 'after', 'gain': 7, 'of': "
+    "'displacement'}]}]}";
+
+enum { CREATURE, SHARED, OWN };
+
+/// Where splines move points freely, each in another direction: so of the creature of the zoo, and of the tail's last joint at a frame.
+enum { VERTEX = 1677, TIP = 23, FREE_FRAME = 74 };
 
 // --- how splines move points
 
@@ -68,9 +105,11 @@ TEST(pulls_are_derivatives)
         {"assets/scenes/character.json", 0, 100, 30, 1e-2, 1e-9},
         {"assets/scenes/dog.json", 1, 7, 30, 1e-2, 1e-4},
         {"assets/scenes/dog.json", 2, 1, 30, 1e-2, 1e-4},
+        {NULL, CREATURE, VERTEX, 20, 1e-5, 1e-7}, // on a curve, beyond what was seen
+        {NULL, CREATURE, VERTEX, 2, 1e-5, 1e-7},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct stand stand = open_path(rows[i].path);
+        struct stand stand = rows[i].path ? open_path(rows[i].path) : open_curved(zoo);
         const int sample = document_sample(document_of(&stand), rows[i].frame),
                   splines = document_of(&stand)->spline_count;
         pin_pull c[64];
@@ -97,26 +136,6 @@ TEST(pulls_are_derivatives)
 }
 
 // --- pins are met
-
-/// A creature and a tail share a spline; another tail, on a base that moves, follows what moves the creature.
-static const char zoo[] =
-    "{'frames': [0, 60], 'splines': [{'name': 'up', 'frequency': 1.5, 'damping': 0.1, 'knots': [{'frame': 0, "
-    "'value': 0.2}, {'frame': 20, 'value': 1}]}, {'name': 'side', 'frequency': 1, 'damping': 0.1, 'equilibrium': "
-    "0.3, 'knots': [{'frame': 5, 'value': -0.5}]}, {'name': 'sway', 'frequency': 0.8, 'damping': 0.1, 'knots': "
-    "[{'frame': 50, 'value': 0.1}]}, {'name': 'after', 'frequency': 2, 'damping': 0.2, 'equilibrium': {'spline': "
-    "'up'}}, {'name': 'east', 'mode': 'cubic', 'knots': [{'frame': 9, 'value': 0.1}]}, {'name': 'south', 'mode': "
-    "'cubic', 'knots': [{'frame': 9, 'value': -0.1}]}], 'rigs': [{'type': 'character', 'name': 'creature', 'model': "
-    "'%s/creature.glb', 'position': [0.5, 1, -0.25], 'coordinates': [{'name': 'up-3', 'spline': 'up', 'amplitude': "
-    "11, 'lag': 40}, {'name': 'side-2', 'spline': 'side', 'amplitude': 4, 'lag': -10}]}, {'type': 'tail', 'name': "
-    "'shared', 'joints': 10, 'position': [1, 0.5, 0], 'channels': [{'spline': 'side', 'gain': 6}, {'spline': 'sway', "
-    "'axis': 'up', 'gain': 7}]}, {'type': 'tail', 'name': 'own', 'joints': 12, 'position': [{'spline': 'east'}, "
-    "{'spline': 'up'}, {'spline': 'south'}], 'rest': 3, 'channels': [{'spline': 'after', 'gain': 7, 'of': "
-    "'displacement'}]}]}";
-
-enum { CREATURE, SHARED, OWN };
-
-/// Where splines move points freely, each in another direction: so of the creature of the zoo, and of the tail's last joint at a frame.
-enum { VERTEX = 1677, TIP = 23, FREE_FRAME = 74 };
 
 static void edit(struct stand *stand, const char *words)
 {
@@ -176,6 +195,16 @@ STAND_TEST(a_character_meets_its_pins, *stand = open_text(zoo))
     pin_near(stand, CREATURE, VERTEX, 41, -0.5, 0.2);
     stand_solve(stand);
     assert_met(stand, CREATURE, 1e-9);
+    assert_same_as_whole(stand);
+}
+
+STAND_TEST(a_curved_character_meets_its_pins, *stand = open_curved(zoo))
+{
+    assert_false(stand_find(stand, CREATURE, VERTEX, 30, NULL).is_linear);
+    pin_near(stand, CREATURE, VERTEX, 30, 0.4, -0.3);
+    pin_near(stand, CREATURE, VERTEX, 41, -0.5, 0.2);
+    stand_solve(stand);
+    assert_met(stand, CREATURE, 1e-8);
     assert_same_as_whole(stand);
 }
 
@@ -472,6 +501,8 @@ TEST(what_can_be_reached_is_reached)
 
 // --- floors
 
+static bool floor_is_curved; ///< of what open_floor() opens
+
 /// `spline` is of the one that moves it up, `more` of the character.
 static struct stand open_floor(const char *start, const char *knots, const char *spline, const char *more)
 {
@@ -483,7 +514,7 @@ static struct stand open_floor(const char *start, const char *knots, const char 
         "'character', 'name': 'creature', 'model': '%%s/creature.glb', 'coordinates': [{'name': 'up', 'spline': "
         "'up'}, {'name': 'side', 'spline': 'side'}]%s}]}",
         start, knots, spline, start, more);
-    return open_text(text);
+    return floor_is_curved ? open_curved(text) : open_text(text);
 }
 
 #define JUMP "{'frame': 0, 'value': 0}, {'frame': 20, 'value': 5}"
@@ -506,10 +537,10 @@ TEST(nothing_is_below_the_floor)
 {
     static const char *const starts[] = {"free", "loop", "rest"};
     static const char *const floors[] = {", 'floor': 0", ", 'floor': 0, 'offset': 3", ", 'floor': 0, 'offset': -2"};
-    for (int s = 0; s < 3; s++) {
+    for (int s = 0; s<6; s++, floor_is_curved = s> 2) {
         double before = INFINITY;
-        struct stand loose = open_floor(starts[s], JUMP ", {'frame': 40, 'value': 2}", "", ""),
-                     kept = open_floor(starts[s], JUMP ", {'frame': 40, 'value': 2}", "", floors[s]);
+        struct stand loose = open_floor(starts[s % 3], JUMP ", {'frame': 40, 'value': 2}", "", ""),
+                     kept = open_floor(starts[s % 3], JUMP ", {'frame': 40, 'value': 2}", "", floors[s % 3]);
         for (int i = 0; i < kept.opened.evaluation.samples; i++) {
             before = fmin(before, lowest(&loose, i));
             assert_true(lowest(&kept, i) > -3e-5);
@@ -520,6 +551,7 @@ TEST(nothing_is_below_the_floor)
         stand_close(&loose);
         stand_close(&kept);
     }
+    floor_is_curved = false;
 }
 
 /// Solved again after a knot was elsewhere meanwhile; one that nothing touches changes no bit.
