@@ -233,7 +233,29 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
     }
     const struct figure *figure = pose->model.figure;
     body->soft = figure && model->drive_count > 0 ? figure->character.node : -1;
-    if (body->soft >= 0) form->target_count = gltf->meshes[gltf->nodes[body->soft].mesh].target_count;
+    if (body->soft >= 0) {
+        const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[body->soft].mesh];
+        const struct character *c = &figure->character;
+        body->figure = figure;
+        form->target_count = mesh->target_count;
+        form->targets = pool_take(&form->pool, (size_t)mesh->target_count, sizeof *form->targets);
+        for (int t = 0; t < mesh->target_count; t++) {
+            char number[32];
+            snprintf(number, sizeof number, "target_%d", t);
+            const char *name = gltf_target_name(mesh, t);
+            form->targets[t].figure.name = form_text(&form->pool, name ? name : number, "", "");
+            form->targets[t].group = -1 - t;
+        }
+        for (int k = 0; k < c->coordinate_count; k++) {
+            for (int part = 0; part < coordinate_parts(&c->coordinates[k]); part++) {
+                struct form_target *target = &form->targets[c->coordinates[k].target[part]];
+                target->group = k;
+                if (figure->version <= 1) continue;
+                target->figure = figure_target_create(figure, k, part, &form->pool);
+                target->figure.sign *= (float)c->coordinates[k].scale;
+            }
+        }
+    }
     int most = 0;
     body->holder = -1;
     for (int n = 0; n < gltf->node_count; n++) {

@@ -179,9 +179,11 @@ struct model_body {
     const struct gltf *gltf;
     const struct gltf_clip *clip; ///< the clip that plays, or NULL
     int *node;                    ///< of each joint
-    int soft;                     ///< the node whose morph weights drives move, −1: none. The form's targets are all of its mesh
-    int holder;                   ///< the node that has all vertices, −1: none or several
-    float (*posed)[3];            ///< room for a node's vertices
+    int soft; ///< the node whose morph weights drives move, −1: none. The form's targets are all of its mesh; only those
+              ///< that paint changes have a figure's positions
+    const struct figure *figure; ///< of that
+    int holder;                  ///< the node that has all vertices, −1: none or several
+    float (*posed)[3];           ///< room for a node's vertices
 };
 
 // --- all keys of a rig, for animation formats

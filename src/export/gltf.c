@@ -9,6 +9,7 @@
 #include "export/form.h"
 #include "model/glb.h"
 #include "model/gltf_write.h"
+#include "model/vector.h"
 #include "rig/import.h"
 #include <math.h>
 #include <stdlib.h>
@@ -29,7 +30,9 @@ struct file_targets {
     bool clamped; ///< weights are 0 … 1
 };
 
-static void make_targets(struct form *form, const struct keys *keys, bool clamped, struct file_targets *targets)
+/// `rows` of weights of all the form's targets, `stride` numbers apart.
+static void make_targets(struct form *form, const float *weights, int rows, int stride, bool clamped,
+                         struct file_targets *targets)
 {
     const int count = form->target_count;
     *targets = (struct file_targets){.clamped = clamped, .count = count};
@@ -37,17 +40,17 @@ static void make_targets(struct form *form, const struct keys *keys, bool clampe
     for (int t = 0; t < count; t++) {
         struct file_target *target = &targets->list[t];
         *target = (struct file_target){.source = t, .scale = 1.0f, .name = form->targets[t].figure.name};
-        // The largest |weight| of a group's targets over all keys, at least 1: weights are divided by it.
+        // The largest |weight| of a group's targets, at least 1: weights are divided by it.
         for (int other = 0; clamped && other < count; other++) {
             if (form->targets[other].group != form->targets[t].group) continue;
-            for (int k = 0; k < keys->count; k++)
-                target->scale = fmaxf(target->scale, fabsf(*keys_at(keys, k, keys_weight(keys, other))));
+            for (int r = 0; r < rows; r++)
+                target->scale = fmaxf(target->scale, fabsf(weights[(size_t)r * (size_t)stride + (size_t)other]));
         }
     }
     for (int t = 0; clamped && t < count; t++) {
-        int k = 0;
-        while (k < keys->count && !(*keys_at(keys, k, keys_weight(keys, t)) < 0)) k++;
-        if (k == keys->count) continue;                    // it is never negative
+        int r = 0;
+        while (r < rows && !(weights[(size_t)r * (size_t)stride + (size_t)t] < 0)) r++;
+        if (r == rows) continue;                           // it is never negative
         const struct file_target *own = &targets->list[t]; // "up.re" → "up.-re", "smile" → "-smile"
         const char *dot = strrchr(own->name, '.'), *behind = dot ? dot + 1 : own->name;
         char *start = form_text(&form->pool, own->name, "", "");
@@ -55,6 +58,20 @@ static void make_targets(struct form *form, const struct keys *keys, bool clampe
         targets->list[targets->count++] = (struct file_target){
             .source = t, .scale = -own->scale, .name = form_text(&form->pool, start, "-", behind)};
     }
+}
+
+/// What the file's targets have for these of the form, row by row. The memory is the form's.
+static float *weights_of(struct form *form, const struct file_targets *targets, const float *weights, int rows,
+                         int stride)
+{
+    const int width = targets->count;
+    float *values = pool_take(&form->pool, (size_t)width * (size_t)rows, sizeof *values);
+    for (int i = 0; i < width * rows; i++) {
+        const struct file_target *target = &targets->list[i % width];
+        const float weight = weights[(size_t)(i / width) * (size_t)stride + (size_t)target->source] / target->scale;
+        values[i] = targets->clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
+    }
+    return values;
 }
 
 // --- one animation
@@ -144,7 +161,8 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
         form_close(&form);
         return false;
     }
-    make_targets(&form, &keys, !scene->range->options->is_signed, &targets);
+    const float *weights = keys_at(&keys, 0, keys_weight(&keys, 0));
+    make_targets(&form, weights, keys.count, keys.width, !scene->range->options->is_signed, &targets);
 
     struct gltf_file *file = &scene->file;
     struct gltf_shape shape = {.name = form.name,
@@ -209,18 +227,11 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
         if (differs(&keys, keys_scale(&keys, j), 3, (const float[]){1, 1, 1}))
             add_keys(&scene->motion, first_joint + j, GLTF_SCALE, &keys, keys_scale(&keys, j), 3);
     }
-    const int width = targets.count;
-    const size_t count = (size_t)width * (size_t)keys.count;
-    float *values = pool_take(&form.pool, count, sizeof *values);
-    for (int i = 0; i < width * keys.count; i++) {
-        const struct file_target *target = &targets.list[i % width];
-        const int column = keys_weight(&keys, target->source);
-        const float weight = *keys_at(&keys, i / width, column) / target->scale;
-        values[i] = targets.clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
-    }
-    if (width > 0)
+    if (targets.count > 0)
         add_channel(&scene->motion, mesh_node, GLTF_WEIGHTS,
-                    add_sampler(&scene->motion, GLTF_WEIGHTS, values, width, width));
+                    add_sampler(&scene->motion, GLTF_WEIGHTS,
+                                weights_of(&form, &targets, weights, keys.count, keys.width), targets.count,
+                                targets.count));
     scene->joints += form.joint_count - form.first_bone;
     scene->targets += targets.count;
     form_close(&form);
@@ -770,6 +781,197 @@ static bool put_other(struct export_range *range, int clip, struct gltf_file *fi
     return done;
 }
 
+// --- the morph targets of a soft mesh, for the weights that its clips have
+
+/// A channel of weights of the mesh in any clip of the file.
+struct weights {
+    json_t *sampler;
+    float *values;      ///< `rows` of the targets before
+    int rows, tangents; ///< of a cubic clip two of three rows are tangents
+};
+
+/// The numbers of an accessor: new ones are in `file`, all others in the file as it was. NULL: they cannot be read.
+static float *numbers_of(const struct gltf_file *file, const struct glb *stored, json_int_t number, size_t *count)
+{
+    struct glb_numbers numbers;
+    struct error error;
+    float *values = NULL;
+    *count = 0;
+    if (number < (json_int_t)json_array_size(json_object_get(stored->json, "accessors"))) {
+        if (!glb_numbers(stored, number, &numbers, &error)) return NULL;
+        *count = (size_t)numbers.count * (size_t)numbers.components;
+        values = need(*count + 1, sizeof *values);
+        for (size_t i = 0; i < *count; i++) values[i] = (float)numbers.values[i];
+        free(numbers.values);
+        return values;
+    }
+    const json_t *accessor = json_array_get(file->accessors, (size_t)number);
+    const json_t *view = json_array_get(file->views, (size_t)glb_integer(accessor, "bufferView", -1));
+    *count = (size_t)glb_integer(accessor, "count", 0);
+    values = need(*count + 1, sizeof *values);
+    memcpy(values, file->data + glb_integer(view, "byteOffset", 0), *count * sizeof *values);
+    return values;
+}
+
+/// The weights of a mesh in all clips of the file, as they are now.
+static struct weights *collect_weights(const struct gltf_file *file, const json_t *root, const struct glb *stored,
+                                       int mesh, int targets, struct pool *pool, int *count)
+{
+    const json_t *nodes = json_object_get(root, "nodes"), *clip, *channel;
+    struct weights *list = NULL;
+    size_t c, i, all;
+    *count = 0;
+    json_array_foreach(json_object_get(root, "animations"), c, clip)
+    {
+        json_array_foreach(json_object_get(clip, "channels"), i, channel)
+        {
+            const json_t *target = json_object_get(channel, "target");
+            const int64_t node = glb_integer(target, "node", -1), s = glb_integer(channel, "sampler", -1);
+            const char *path = json_string_value(json_object_get(target, "path"));
+            json_t *sampler = s < 0 ? NULL : json_array_get(json_object_get(clip, "samplers"), (size_t)s);
+            bool known = node < 0 || !sampler || !path || strcmp(path, "weights") != 0 ||
+                         glb_integer(json_array_get(nodes, (size_t)node), "mesh", -1) != mesh;
+            for (int n = 0; n < *count; n++) known |= list[n].sampler == sampler;
+            float *values = known ? NULL : numbers_of(file, stored, glb_integer(sampler, "output", -1), &all);
+            if (!values) continue;
+            const char *how = json_string_value(json_object_get(sampler, "interpolation"));
+            list = need_more(list, (size_t)*count + 1, sizeof *list);
+            list[*count] = (struct weights){.sampler = sampler,
+                                            .values = pool_take(pool, all + 1, sizeof *values),
+                                            .rows = (int)(all / (size_t)targets),
+                                            .tangents = how && strcmp(how, "CUBICSPLINE") == 0};
+            memcpy(list[(*count)++].values, values, all * sizeof *values);
+            free(values);
+        }
+    }
+    return list;
+}
+
+/// How far a target takes the vertices of a part, or turns their normals; false: it leaves them alone. Paint changes coordinates, and their
+/// targets then turn no normals.
+static bool offsets_of(const struct form *form, const struct gltf_part *part, int first, int target, bool normals,
+                       float (*out)[3])
+{
+    const struct model_body *body = form->owned;
+    const struct figure_target *painted = &form->targets[target].figure;
+    const float(*from)[3] =
+        (const float(*)[3])(normals ? part->targets[target].normal : part->targets[target].position);
+    if (painted->position && normals) return false;
+    if (painted->position) {
+        const mat4s back = glms_mat4_inv(mat4_from(body->figure->character.moved));
+        for (int v = 0; v < part->vertex_count; v++) {
+            const vec3s way = glms_vec3_scale(vec3_from(painted->position[first + v]), painted->sign);
+            const vec3s inside = glms_mat4_mulv3(back, way, 0.0f);
+            memcpy(out[v], inside.raw, sizeof out[v]);
+        }
+    } else if (from) {
+        memcpy(out, from, (size_t)part->vertex_count * sizeof *out);
+    }
+    return painted->position || from;
+}
+
+/// A primitive's targets; `like`: those of another one that it shares its vertices with.
+static json_t *primitive_targets(struct gltf_file *file, const struct form *form, const struct file_targets *targets,
+                                 const struct gltf_part *part, int first, const json_t *before, const json_t *like)
+{
+    static const char *const attributes[] = {"POSITION", "NORMAL"};
+    json_t *list = like ? json_deep_copy(like) : json_array();
+    float(*offsets)[3] = need((size_t)part->vertex_count, sizeof *offsets);
+    for (int t = 0; t < targets->count && !like; t++) {
+        const struct file_target *target = &targets->list[t];
+        json_t *kept = json_array_get(before, (size_t)target->source);
+        if (target->scale == 1 && kept && !form->targets[target->source].figure.position) {
+            gltf_append(file, list, json_deep_copy(kept));
+            continue;
+        }
+        json_t *own = json_object();
+        for (int a = 0; a < 2; a++) {
+            if (!offsets_of(form, part, first, target->source, a, offsets)) {
+                if (a > 0) continue; // an accessor without bytes is all zeros
+                memset(offsets, 0, (size_t)part->vertex_count * sizeof *offsets);
+            }
+            for (int n = 0; n < 3 * part->vertex_count; n++) offsets[n / 3][n % 3] *= target->scale;
+            gltf_set(file, own, attributes[a],
+                     json_integer(gltf_file_add(file, ELEMENTS_VECTORS, offsets, (size_t)part->vertex_count, !a)));
+        }
+        gltf_append(file, list, own);
+    }
+    free(offsets);
+    return list;
+}
+
+/// Gives the soft mesh targets by which weights stay within 0 … 1, and those of paint, and all clips their weights.
+static bool put_targets(const struct export_range *range, struct form *form, struct gltf_file *file, json_t *root,
+                        struct error *error)
+{
+    const struct model_body *body = form->owned;
+    const int mesh = body->gltf->nodes[body->soft].mesh, before = form->target_count;
+    const struct gltf_mesh *shown = &body->gltf->meshes[mesh];
+    struct glb stored;
+    int clips, next = 0, part = 0, total = 0;
+    size_t p;
+    if (!glb_open(&stored, body->gltf->path, error)) return false;
+    bool done = glb_read_buffers(&stored, error);
+    struct weights *list = done ? collect_weights(file, root, &stored, mesh, before, &form->pool, &clips) : NULL;
+    glb_close(&stored);
+    if (!done) return false;
+
+    // Targets for the weights of all clips together.
+    for (int c = 0; c < clips; c++) total += list[c].rows;
+    float *all = pool_take(&form->pool, (size_t)total * (size_t)before + 1, sizeof *all), *to = all;
+    for (int c = 0; c < clips; c++) {
+        for (int r = list[c].tangents; r < list[c].rows; r += list[c].tangents ? 3 : 1)
+            to = mempcpy(to, list[c].values + (size_t)r * (size_t)before, (size_t)before * sizeof *to);
+    }
+    struct file_targets targets;
+    const int rows = (int)((to - all) / before);
+    make_targets(form, all, rows, before, !range->options->is_signed, &targets);
+    bool changes = targets.count > before;
+    for (int t = 0; t < before; t++) changes |= targets.list[t].scale != 1 || form->targets[t].figure.position;
+
+    json_t *json = json_array_get(json_object_get(root, "meshes"), (size_t)mesh), *primitive, *first = NULL, *node;
+    json_array_foreach(changes ? json_object_get(json, "primitives") : NULL, p, primitive)
+    {
+        if (part == shown->part_count || shown->parts[part].primitive != (int)p) continue;
+        const struct gltf_part *own = &shown->parts[part++];
+        gltf_set(file, primitive, "targets",
+                 primitive_targets(file, form, &targets, own, next, json_object_get(primitive, "targets"),
+                                   own->shared ? first : NULL));
+        if (own->shared) continue;
+        first = json_object_get(primitive, "targets");
+        next += own->vertex_count;
+    }
+    if (changes) {
+        json_t *extras = json_object_get(json, "extras"), *names = json_array(), *entry;
+        for (int t = 0; t < targets.count; t++) gltf_append(file, names, json_string(targets.list[t].name));
+        gltf_set(file, extras, "targetNames", names);
+        json_array_foreach(json_object_get(json_object_get(extras, "wiggly"), "coordinates"), p, entry)
+        {
+            const int coordinate = figure_find(body->figure, json_string_value(json_object_get(entry, "name")));
+            if (coordinate < 0) continue;
+            const struct coordinate *c = &body->figure->character.coordinates[coordinate];
+            gltf_set(file, entry, "scale", json_real(c->scale * (double)targets.list[c->target[0]].scale));
+        }
+        const float *rest = weights_of(form, &targets, shown->weights, 1, before);
+        gltf_set(file, json, "weights", gltf_numbers(file, rest, targets.count));
+        json_array_foreach(json_object_get(root, "nodes"), p, node)
+        {
+            if (glb_integer(node, "mesh", -1) != mesh || !json_object_get(node, "weights")) continue;
+            const float *own = body->gltf->weights + body->gltf->nodes[p].first_weight;
+            gltf_set(file, node, "weights",
+                     gltf_numbers(file, weights_of(form, &targets, own, 1, before), targets.count));
+        }
+    }
+    for (int c = 0; c < clips && changes; c++) {
+        const float *values = weights_of(form, &targets, list[c].values, list[c].rows, before);
+        gltf_set(file, list[c].sampler, "output",
+                 json_integer(gltf_file_add(file, ELEMENTS_KEYS, values, (size_t)list[c].rows * (size_t)targets.count,
+                                            false)));
+    }
+    free(list);
+    return true;
+}
+
 /// Copies the file of the range's only rig and gives its clip, or a copy of that by another name, the keys of chains. Everything else stays the
 /// same, also in the other container (.glb or .gltf). Without a chain the clip stays, too.
 static bool write_model(struct export_range *range, FILE *out, struct error *error)
@@ -818,6 +1020,8 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
             done = put_other(range, c, &to, source.json, error);
             clips++;
         }
+
+        if (done && body->soft >= 0) done = put_targets(range, &form, &to, source.json, error);
 
         // All scenes' nodes go under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
         // validators warn of one that has a parent.

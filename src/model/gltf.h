@@ -96,6 +96,7 @@ struct gltf_part {
     int index_count;
     struct gltf_target *targets; ///< as many as the mesh has
     int material;                ///< −1: plain white
+    int primitive;               ///< its number in the mesh of the file
     bool has_polygons;           ///< GLTF_POLYGONS
     bool
         shared; ///< its vertices are those of the mesh's first part, at the same addresses; so is `uv`, unless materials differ in that

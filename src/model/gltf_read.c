@@ -388,6 +388,7 @@ static bool read_meshes(struct gltf_reader *r)
             struct gltf_part *part = &mesh->parts[mesh->part_count];
             gltf_at(r, "meshes[%zu].primitives[%zu]", m, i);
             if (!read_part(r, primitive, first, mesh, part)) return false;
+            part->primitive = (int)i;
             if (part->index_count > 0 && mesh->part_count++ == 0) first = primitive;
         }
 

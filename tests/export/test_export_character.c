@@ -1,9 +1,11 @@
 /// What wiggly export writes of characters: their own files with a clip more, in either container; and .usda, of all rigs.
 #include "base/png.h"
+#include "beast.h"
 #include "export/form.h"
 #include "export_scene.h"
 #include "gltf_builder.h"
 #include "model/vector.h"
+#include "scene/edit.h"
 
 #include <jansson.h>
 #include <sys/stat.h>
@@ -38,6 +40,62 @@ static size_t word_at(const char *bytes)
     uint32_t word;
     memcpy(&word, bytes, sizeof word);
     return word;
+}
+
+// --- soft on its own skeleton
+
+/// Shapes and skin together are where they are posed, in all clips of the file; by weights from 0 to 1, or signed; and what is painted.
+EXPORT_TEST(a_soft_beast_gets_its_swing)
+{
+    static const char beast[] = "{'type': 'model', 'name': 'beast', 'model': 'beast.glb', %s'coordinates': [{'name': "
+                                "'belly', 'spline': 's', 'lag': 40}]}%s";
+    static const struct {
+        const char *more, *rigs;
+        bool is_signed, is_painted;
+        int targets;
+    } rows[] = {
+        {"'clip': 'Walk', ", "", false, false, 5},
+        {"'clip': 'Walk', ", "", true, false, 3},
+        {"'clip': 'Walk', ",
+         ", {'type': 'chain', 'model': 'beast', 'from': 'tail_1', 'to': 'tail_8', 'channels': [{'spline': 's'}]}",
+         false, false, 5},
+        {"'clip': 'Walk', ", "", false, true, 5},
+        {"'clip': 'Walk', ", "", true, true, 3},
+        {"", "", false, false, 5},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        char rigs[1024];
+        assert_true(beast_write_as(folder_path("beast.glb"), true));
+        snprintf(rigs, sizeof rigs, beast, rows[r].more, rows[r].rigs);
+        struct opened scene = open_scene(made_scene(rigs));
+        if (rows[r].is_painted) {
+            const int vertices = 8 * BEAST_BONES;
+            assert_true(edit_paint_new(scene.document, 0, 1, vertices, NULL));
+            struct paint *paint = scene.document->rigs[0]->model.painted;
+            for (int v = 0; v < vertices; v++) paint->values[v][0] = 0.3f, paint->values[v][1] = 0.02f * (float)v;
+            paint->version++;
+            models_follow(scene.models, scene.document);
+        }
+        struct export_options options = {.is_signed = rows[r].is_signed};
+        struct points points = read_points(export_opened(&scene, "beast.npy", (struct export_options){0}));
+        const char *path = export_opened(&scene, "out.glb", options), *clip = rows[r].more[0] ? "Walk" : "made";
+        assert_near(glb_is_off(path, clip, &points), 0, 1e-6);
+        struct gltf after;
+        assert_done(gltf_read(path, &after, &error));
+        assert_int_equal(after.meshes->target_count, rows[r].targets);
+        assert_true(gltf_is_soft(&after));
+        gltf_free(&after);
+        struct imported before, again; // its coordinate is the same, with the paint in it
+        assert_done(imported_read(&before, folder_path("beast.glb"), &error));
+        assert_done(imported_read(&again, path, &error));
+        for (int v = 0; v < 8 * BEAST_BONES && !rows[r].is_painted; v++)
+            assert_near((double)again.figure.character.coordinates[0].re[v][0],
+                        (double)before.figure.character.coordinates[0].re[v][0], 1e-6);
+        imported_free(&before);
+        imported_free(&again);
+        free(points.number);
+        close_scene(&scene);
+    }
 }
 
 // --- a clip more

@@ -41,7 +41,8 @@ static void z_at(const struct stand *stand, int frame, double z[2])
 /// As glTF defines it, vertex by vertex. Re z and Im z are half as much in weights, because the file's shapes are twice as large.
 TEST(a_vertex_is_the_skin_of_rest_and_shapes)
 {
-    static const char *const more[] = {"", ",'clip':'Walk'", ",'clip':'Walk','scale':1.5,'turn':30,'position':[1,0.5,-2]"};
+    static const char *const more[] = {"", ",'clip':'Walk'",
+                                       ",'clip':'Walk','scale':1.5,'turn':30,'position':[1,0.5,-2]"};
     for (int r = 0; r < 6; r++) {
         struct stand stand = open_beast(more[r % 3], r < 3 ? "" : TAIL);
         const struct posing posing = opened_posing(&stand.opened);
@@ -69,8 +70,9 @@ TEST(a_vertex_is_the_skin_of_rest_and_shapes)
                     assert_near((double)places[v][k], (double)expected[k], 2e-6);
                     assert_near((double)single[k], (double)places[v][k], 1e-6);
                 }
-                assert_near((double)belly->re[v][0], 0.1 * (double)(0.7f - model->figure->character.position[v][1]) *
-                                                         cos(2.0 * (double)model->figure->character.position[v][2]),
+                assert_near((double)belly->re[v][0],
+                            0.1 * (double)(0.7f - model->figure->character.position[v][1]) *
+                                cos(2.0 * (double)model->figure->character.position[v][2]),
                             1e-6);
             }
             free(places);
@@ -82,7 +84,8 @@ TEST(a_vertex_is_the_skin_of_rest_and_shapes)
 /// The vertex that the stage shows is at the pin, in the walk, with the character moved, turned and larger, and later by its offset.
 TEST(a_point_of_a_walking_character_is_pinned)
 {
-    static const char *const more[] = {"", ",'clip':'Walk'", ",'clip':'Walk','scale':1.5,'turn':30,'position':[1,0.5,-2]",
+    static const char *const more[] = {"", ",'clip':'Walk'",
+                                       ",'clip':'Walk','scale':1.5,'turn':30,'position':[1,0.5,-2]",
                                        ",'clip':'Walk','offset':2"};
     for (size_t r = 0; r < sizeof more / sizeof *more; r++) {
         struct stand stand = open_beast(more[r], TAIL);
@@ -123,7 +126,8 @@ static double lowest_of(const struct stand *stand)
 TEST(a_walking_character_stays_above_its_floor)
 {
     struct stand loose = open_beast(",'clip':'Walk'", ""), kept = open_beast(",'clip':'Walk','floor':-0.012", "");
-    printf("%g %g\n", lowest_of(&loose), lowest_of(&kept));assert_true(lowest_of(&loose) < -0.014);
+    printf("%g %g\n", lowest_of(&loose), lowest_of(&kept));
+    assert_true(lowest_of(&loose) < -0.014);
     assert_true(lowest_of(&kept) > -0.0121);
     assert_true(evaluation_floor(&kept.opened.evaluation, 0)->depth < 1e-4);
     stand_close(&loose);
