@@ -73,7 +73,7 @@ static inline void beast_box(const struct beast_bone *bones, int bone, float cor
     for (int i = 0; i < 36; i++) index[i] = (uint16_t)(faces[i] + 8 * bone);
 }
 
-/// Returns false if the file cannot be written. A soft one has the coordinate "belly", whose real part its Walk moves, and the shape "grin".
+/// Returns false if the file cannot be written. A soft one has the curved coordinate "belly", whose real part its Walk moves, and the shape "grin".
 static inline bool beast_write_as(const char *path, bool soft)
 {
     static struct builder b;
@@ -114,21 +114,22 @@ static inline bool beast_write_as(const char *path, bool soft)
     ADD(&b, FLOAT, float, 4, 0, 0, 0, 1, 0.12f, 0, 0, 0.9928f, 0, 0, 0, 1, -0.12f, 0, 0, 0.9928f, 0, 0, 0, 1);
     ADD(&b, FLOAT, float, 3, 0, 0.55f, -0.3f, 0, 0.57f, -0.3f, 0, 0.55f, -0.3f, 0, 0.57f, -0.3f, 0, 0.55f, -0.3f);
     static const char *const more[] = {
-        ",'targets':[{'POSITION':9},{'POSITION':10},{'POSITION':11}]",
-        ",'extras':{'targetNames':['belly.re','grin','belly.im'],'wiggly':{'coordinates':[{'name':'belly',"
-        "'frequency':2,'damping':0.1,'scale':2}]}}",
-        ",{'sampler':2,'target':{'node':25,'path':'weights'}}", ",{'input':5,'output':12}"};
+        ",'targets':[{'POSITION':9},{'POSITION':10},{'POSITION':11},{'POSITION':12},{'POSITION':13},{'POSITION':14}]",
+        ",'extras':{'targetNames':['belly.re','grin','belly.im','belly.sq','belly.re2','belly.im2'],'wiggly':"
+        "{'coordinates':[{'name':'belly','frequency':2,'damping':0.1,'scale':2,'most':0.4}]}}",
+        ",{'sampler':2,'target':{'node':25,'path':'weights'}}", ",{'input':5,'output':15}"};
     if (soft) {
-        static float target[3][8 * BEAST_BONES][3], keys[5][3];
+        static float target[6][8 * BEAST_BONES][3], keys[5][6];
         for (int c = 0; c < 8 * BEAST_BONES; c++) { // what is low swings most, what is at the back later
             const float *p = position[c], low = 0.7f - p[1], turn = 2 * p[2];
             target[0][c][0] = 0.2f * low * cosf(turn), target[2][c][0] = -0.2f * low * sinf(turn);
             target[0][c][1] = 0.1f * low * sinf(turn), target[2][c][1] = 0.1f * low * cosf(turn);
             target[1][c][2] = c % 2 ? 0.05f : 0;
+            target[3][c][1] = 0.03f * low, target[4][c][0] = 0.02f * low, target[5][c][2] = 0.02f * low;
         }
         for (int k = 0; k < 5; k++) keys[k][0] = 0.1f * (float)(k % 2), keys[k][1] = 0.25f * (float)(k % 4);
-        for (int t = 0; t < 3; t++) add_data(&b, FLOAT, "VEC3", 8 * BEAST_BONES, target[t], sizeof target[t]);
-        add_data(&b, FLOAT, "SCALAR", 15, keys, sizeof keys);
+        for (int t = 0; t < 6; t++) add_data(&b, FLOAT, "VEC3", 8 * BEAST_BONES, target[t], sizeof target[t]);
+        add_data(&b, FLOAT, "SCALAR", 30, keys, sizeof keys);
     }
 #define MORE(n) (soft ? more[n] : "")
     sprintf(

@@ -42,10 +42,11 @@ bool character_create(struct character *c, struct surface *surface, int coordina
 
 bool character_curve(struct character *c, int coordinate)
 {
-    float(**parts)[3] = c->coordinates[coordinate].parts;
-    for (int p = COORDINATE_STRAIGHT; p < COORDINATE_PARTS; p++)
-        if (!(parts[p] = calloc((size_t)c->vertex_count, sizeof *parts[p]))) return false;
-    return true;
+    struct coordinate *of = &c->coordinates[coordinate];
+    of->sq = calloc((size_t)c->vertex_count, sizeof *of->sq);
+    of->re2 = calloc((size_t)c->vertex_count, sizeof *of->re2);
+    of->im2 = calloc((size_t)c->vertex_count, sizeof *of->im2);
+    return of->sq && of->re2 && of->im2;
 }
 
 void character_find_normals(struct character *c)

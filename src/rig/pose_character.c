@@ -32,8 +32,9 @@ void pose_character(const struct model_rig *rig, const struct figure *figure, co
         const struct coordinate *c = &figure->character.coordinates[k];
         const double z[2] = {c->scale * (double)weights[c->target[0]], c->scale * (double)weights[c->target[1]]};
         double all[COORDINATE_PARTS];
-        if (c->sq) coordinate_weights(c, z, all, NULL);
-        for (int p = COORDINATE_STRAIGHT; p < coordinate_parts(c); p++)
+        if (!c->sq) continue;
+        coordinate_weights(c, z, all, NULL);
+        for (int p = COORDINATE_STRAIGHT; p < COORDINATE_PARTS; p++)
             weights[c->target[p]] = (float)(coordinate_sign(p) * all[p] / c->scale);
     }
 }
