@@ -54,14 +54,14 @@ EXPORT_TEST(a_soft_beast_gets_its_swing)
         bool is_signed, is_painted;
         int targets;
     } rows[] = {
-        {"'clip': 'Walk', ", "", false, false, 5},
-        {"'clip': 'Walk', ", "", true, false, 3},
+        {"'clip': 'Walk', ", "", false, false, 10},
+        {"'clip': 'Walk', ", "", true, false, 6},
         {"'clip': 'Walk', ",
          ", {'type': 'chain', 'model': 'beast', 'from': 'tail_1', 'to': 'tail_8', 'channels': [{'spline': 's'}]}",
-         false, false, 5},
-        {"'clip': 'Walk', ", "", false, true, 5},
-        {"'clip': 'Walk', ", "", true, true, 3},
-        {"", "", false, false, 5},
+         false, false, 10},
+        {"'clip': 'Walk', ", "", false, true, 10},
+        {"'clip': 'Walk', ", "", true, true, 6},
+        {"", "", false, false, 10},
     };
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         char rigs[1024];
