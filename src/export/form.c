@@ -206,6 +206,44 @@ static const struct form_kind soft_form = {FORM_MESH | FORM_POINTS, character_op
 
 // --- any other character, in its file's space: its vertices, and the bones of its chains as joints
 
+const struct gltf *form_gltf(const struct rig_pose *pose, struct pool *pool)
+{
+    const struct figure *figure = pose->model.figure;
+    if (!figure || figure->version <= 1) return pose->model.gltf;
+    struct gltf *painted = pool_take(pool, 1, sizeof *painted);
+    *painted = *pose->model.gltf;
+    const struct character *c = &figure->character;
+    const struct gltf_mesh *plain = &painted->meshes[painted->nodes[c->node].mesh];
+    struct gltf_mesh *meshes = pool_take(pool, (size_t)painted->mesh_count, sizeof *meshes);
+    struct gltf_part *parts = pool_take(pool, (size_t)plain->part_count, sizeof *parts);
+    memcpy(meshes, painted->meshes, (size_t)painted->mesh_count * sizeof *meshes);
+    memcpy(parts, plain->parts, (size_t)plain->part_count * sizeof *parts);
+    meshes[plain - painted->meshes].parts = parts;
+    painted->meshes = meshes;
+    const mat4s back = glms_mat4_inv(mat4_from(c->moved));
+    for (int p = 0, first = 0; p < plain->part_count; p++) {
+        const size_t vertices = (size_t)parts[p].vertex_count;
+        struct gltf_target *targets = pool_take(pool, (size_t)plain->target_count, sizeof *targets);
+        memcpy(targets, parts[p].targets, (size_t)plain->target_count * sizeof *targets);
+        parts[p].targets = targets;
+        for (int k = 0; k < c->coordinate_count; k++) {
+            const struct coordinate *own = &c->coordinates[k];
+            for (int n = 0; n < coordinate_parts(own); n++) {
+                float(*offsets)[3] = pool_take(pool, vertices, sizeof *offsets);
+                const float size = (float)own->scale * (n == 1 ? -1.0f : 1.0f);
+                for (size_t v = 0; v < vertices; v++) {
+                    const vec3s way = vec3_from(own->parts[n][(parts[p].shared ? 0 : first) + (int)v]);
+                    const vec3s inside = glms_vec3_scale(glms_mat4_mulv3(back, way, 0.0f), size);
+                    memcpy(offsets[v], inside.raw, sizeof *offsets);
+                }
+                targets[own->target[n]] = (struct gltf_target){.position = offsets};
+            }
+        }
+        first += parts[p].shared ? 0 : parts[p].vertex_count;
+    }
+    return painted;
+}
+
 /// Vertices that a part does not share with its mesh's first: a cache has a row for each of the file's.
 static int own_vertices(const struct gltf_part *part) { return part->shared ? 0 : part->vertex_count; }
 
@@ -213,7 +251,7 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
                        struct error *error)
 {
     const struct model_rig *model = &posing->document->rigs[rig]->model;
-    const struct gltf *gltf = pose->model.gltf;
+    const struct gltf *gltf = form_gltf(pose, &form->pool);
     const int clip = gltf_find_clip(gltf, model->clip);
     const size_t nodes = (size_t)gltf->node_count;
     struct model_body *body = form->owned = pool_take(&form->pool, 1, sizeof *body);
@@ -247,13 +285,8 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
             form->targets[t].group = -1 - t;
         }
         for (int k = 0; k < c->coordinate_count; k++) {
-            for (int part = 0; part < coordinate_parts(&c->coordinates[k]); part++) {
-                struct form_target *target = &form->targets[c->coordinates[k].target[part]];
-                target->group = k;
-                if (figure->version <= 1) continue;
-                target->figure = figure_target_create(figure, k, part, &form->pool);
-                target->figure.sign *= (float)c->coordinates[k].scale;
-            }
+            for (int part = 0; part < coordinate_parts(&c->coordinates[k]); part++)
+                form->targets[c->coordinates[k].target[part]].group = k;
         }
     }
     int most = 0;

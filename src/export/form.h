@@ -164,6 +164,10 @@ const struct form_kind *form_kind(const struct posing *posing, int rig);
 /// A rig's name in files and messages: its own, or its kind's word.
 const char *form_name(const struct rig *rig);
 
+/// The model of a pose, with what paint has made of the coordinates in the targets of its mesh, which then leave normals alone. The memory is the
+/// pool's.
+const struct gltf *form_gltf(const struct rig_pose *pose, struct pool *pool);
+
 /// A name as one word, with "_" for each space, at which readers of text end it. The memory is the pool's.
 char *form_word(struct pool *pool, const char *name);
 
@@ -176,11 +180,10 @@ void form_close(struct form *form);
 
 /// form.owned of a character. Its joints are the bones that chains bend.
 struct model_body {
-    const struct gltf *gltf;
+    const struct gltf *gltf;      ///< form_gltf()
     const struct gltf_clip *clip; ///< the clip that plays, or NULL
     int *node;                    ///< of each joint
-    int soft; ///< the node whose morph weights drives move, −1: none. The form's targets are all of its mesh; only those
-              ///< that paint changes have a figure's positions
+    int soft; ///< the node whose morph weights drives move, −1: none. The form's targets are all of its mesh
     const struct figure *figure; ///< of that
     int holder;                  ///< the node that has all vertices, −1: none or several
     float (*posed)[3];           ///< room for a node's vertices

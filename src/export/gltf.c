@@ -9,7 +9,6 @@
 #include "export/form.h"
 #include "model/glb.h"
 #include "model/gltf_write.h"
-#include "model/vector.h"
 #include "rig/import.h"
 #include <math.h>
 #include <stdlib.h>
@@ -847,50 +846,29 @@ static struct weights *collect_weights(const struct gltf_file *file, const json_
     return list;
 }
 
-/// How far a target takes the vertices of a part, or turns their normals; false: it leaves them alone. Paint changes coordinates, and their
-/// targets then turn no normals.
-static bool offsets_of(const struct form *form, const struct gltf_part *part, int first, int target, bool normals,
-                       float (*out)[3])
-{
-    const struct model_body *body = form->owned;
-    const struct figure_target *painted = &form->targets[target].figure;
-    const float(*from)[3] =
-        (const float(*)[3])(normals ? part->targets[target].normal : part->targets[target].position);
-    if (painted->position && normals) return false;
-    if (painted->position) {
-        const mat4s back = glms_mat4_inv(mat4_from(body->figure->character.moved));
-        for (int v = 0; v < part->vertex_count; v++) {
-            const vec3s way = glms_vec3_scale(vec3_from(painted->position[first + v]), painted->sign);
-            const vec3s inside = glms_mat4_mulv3(back, way, 0.0f);
-            memcpy(out[v], inside.raw, sizeof out[v]);
-        }
-    } else if (from) {
-        memcpy(out, from, (size_t)part->vertex_count * sizeof *out);
-    }
-    return painted->position || from;
-}
-
 /// A primitive's targets; `like`: those of another one that it shares its vertices with.
 static json_t *primitive_targets(struct gltf_file *file, const struct form *form, const struct file_targets *targets,
-                                 const struct gltf_part *part, int first, const json_t *before, const json_t *like)
+                                 const struct gltf_part *part, const json_t *before, const json_t *like)
 {
+    const struct model_body *body = form->owned;
     static const char *const attributes[] = {"POSITION", "NORMAL"};
     json_t *list = like ? json_deep_copy(like) : json_array();
     float(*offsets)[3] = need((size_t)part->vertex_count, sizeof *offsets);
     for (int t = 0; t < targets->count && !like; t++) {
         const struct file_target *target = &targets->list[t];
         json_t *kept = json_array_get(before, (size_t)target->source);
-        if (target->scale == 1 && kept && !form->targets[target->source].figure.position) {
+        const bool is_painted = body->figure->version > 1 && form->targets[target->source].group >= 0;
+        if (target->scale == 1 && kept && !is_painted) {
             gltf_append(file, list, json_deep_copy(kept));
             continue;
         }
         json_t *own = json_object();
+        const struct gltf_target *of = &part->targets[target->source];
+        const float(*const from[])[3] = {(const float(*)[3])of->position, (const float(*)[3])of->normal};
         for (int a = 0; a < 2; a++) {
-            if (!offsets_of(form, part, first, target->source, a, offsets)) {
-                if (a > 0) continue; // an accessor without bytes is all zeros
-                memset(offsets, 0, (size_t)part->vertex_count * sizeof *offsets);
-            }
-            for (int n = 0; n < 3 * part->vertex_count; n++) offsets[n / 3][n % 3] *= target->scale;
+            if (a > 0 && !from[a]) continue;
+            for (int n = 0; n < 3 * part->vertex_count; n++)
+                offsets[n / 3][n % 3] = from[a] ? target->scale * from[a][n / 3][n % 3] : 0;
             gltf_set(file, own, attributes[a],
                      json_integer(gltf_file_add(file, ELEMENTS_VECTORS, offsets, (size_t)part->vertex_count, !a)));
         }
@@ -908,7 +886,7 @@ static bool put_targets(const struct export_range *range, struct form *form, str
     const int mesh = body->gltf->nodes[body->soft].mesh, before = form->target_count;
     const struct gltf_mesh *shown = &body->gltf->meshes[mesh];
     struct glb stored;
-    int clips, next = 0, part = 0, total = 0;
+    int clips, part = 0, total = 0;
     size_t p;
     if (!glb_open(&stored, body->gltf->path, error)) return false;
     bool done = glb_read_buffers(&stored, error);
@@ -926,8 +904,8 @@ static bool put_targets(const struct export_range *range, struct form *form, str
     struct file_targets targets;
     const int rows = (int)((to - all) / before);
     make_targets(form, all, rows, before, !range->options->is_signed, &targets);
-    bool changes = targets.count > before;
-    for (int t = 0; t < before; t++) changes |= targets.list[t].scale != 1 || form->targets[t].figure.position;
+    bool changes = targets.count > before || body->figure->version > 1;
+    for (int t = 0; t < before; t++) changes |= targets.list[t].scale != 1;
 
     json_t *json = json_array_get(json_object_get(root, "meshes"), (size_t)mesh), *primitive, *first = NULL, *node;
     json_array_foreach(changes ? json_object_get(json, "primitives") : NULL, p, primitive)
@@ -935,11 +913,9 @@ static bool put_targets(const struct export_range *range, struct form *form, str
         if (part == shown->part_count || shown->parts[part].primitive != (int)p) continue;
         const struct gltf_part *own = &shown->parts[part++];
         gltf_set(file, primitive, "targets",
-                 primitive_targets(file, form, &targets, own, next, json_object_get(primitive, "targets"),
+                 primitive_targets(file, form, &targets, own, json_object_get(primitive, "targets"),
                                    own->shared ? first : NULL));
-        if (own->shared) continue;
-        first = json_object_get(primitive, "targets");
-        next += own->vertex_count;
+        if (!own->shared) first = json_object_get(primitive, "targets");
     }
     if (changes) {
         json_t *extras = json_object_get(json, "extras"), *names = json_array(), *entry;

@@ -916,7 +916,7 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error)
             done = range_pose(range, rig, 0, &pose, error);
         }
         if (!done) break;
-        model.gltf = model.is_own ? &gltf : pose.model.gltf;
+        model.gltf = model.is_own ? &gltf : form_gltf(&pose, &model.pool);
         done = usda_model_write(&model, error);
         gltf_free(&gltf);
     }
