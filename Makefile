@@ -68,7 +68,7 @@ SOURCES := $(sort $(shell find src -name '*.c' -not -path 'src/platform/web/*'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/maths/maths.c src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
-    assets/models/fox.glb assets/demo/demo.replay)
+    assets/models/fox.glb)
 TOOLS := $(filter-out adversary,$(basename $(notdir $(wildcard tools/*.c))))
 MODEL_MAKERS := creature_obj dog_glb fox_glb
 TOOL_PARTS := $(filter-out $(MODEL_MAKERS:%=tools/models/%.c),$(wildcard tools/*/*.c))

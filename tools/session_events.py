@@ -1,4 +1,4 @@
-"""Collects the events of a session by frame and writes them as a replay: for make-session.py, make-full-session.py and make-demo.py."""
+"""Collects the events of a session by frame and writes them as a replay: for make-session.py and make-full-session.py."""
 import sys
 
 FRAMES = 1200

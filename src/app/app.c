@@ -1,6 +1,5 @@
 /// Starts the app, runs its frames and ends it. A frame: input from window, replay or demo, the document's part, drawing, log.
 #include "app/state.h"
-#include "base/embedded.h"
 #include "base/need.h"
 #include "base/progress.h"
 #include "platform/process.h"
@@ -81,8 +80,7 @@ enum { UI_LEAST_WIDTH = 320, UI_LEAST_HEIGHT = 240 };
 
 enum { STEPS = sizeof scale_steps / sizeof *scale_steps };
 
-static const double PRESENTING = 1.5; ///< times the chosen scale
-static const double SHARPEST = 5;     ///< device pixels per logical pixel that the glyph atlas can hold
+static const double SHARPEST = 5; ///< device pixels per logical pixel that the glyph atlas can hold
 
 /// Logical pixels that the panels need; in an upright window they lie below each other.
 static double least_width(const struct app *app) { return app->display.height > app->display.width ? 360 : 760; }
@@ -94,15 +92,10 @@ static bool has_room(const struct app *app, double scale)
            (double)app->display.height / scale >= least_height(app) && (double)app->display.scale * scale <= SHARPEST;
 }
 
-static double wanted_scale(const struct app *app, double chosen)
-{
-    return chosen * (editor_shown(app->work.editor).presents ? PRESENTING : 1);
-}
-
 /// The chosen scale, or the largest step below it that fits. A window too small for any keeps its scale.
 static double fitting_scale(const struct app *app)
 {
-    const double most = wanted_scale(app, app->figures.ui_scale);
+    const double most = app->figures.ui_scale;
     if (most <= 1 || has_room(app, most)) return most;
     int step = STEPS - 1;
     while (scale_steps[step] > 1 && (scale_steps[step] > most || !has_room(app, scale_steps[step]))) step--;
@@ -115,14 +108,6 @@ void ui_scale_fit(struct app *app)
     const float shown = (float)app->ui_scale_shown;
     editor_resize(app->work.editor, fmaxf(app->display.width / shown, UI_LEAST_WIDTH),
                   fmaxf(app->display.height / shown, UI_LEAST_HEIGHT), app->display.scale * shown);
-}
-
-/// Call when presenting has started or ended.
-static void ui_scale_update(struct app *app)
-{
-    if (app->ui_scale_shown == fitting_scale(app)) return;
-    editor_let_go(app->work.editor); // a held control would jump
-    ui_scale_fit(app);
 }
 
 /// Converts the display's coordinates to the editor's.
@@ -142,14 +127,14 @@ bool ui_scale_step(struct app *app, int direction, struct error *error)
     if (direction > 0) next = fmax(scale_steps[step], app->figures.ui_scale);
     while (step > 0 && scale_steps[step] >= app->figures.ui_scale) step--;
     if (direction < 0) next = fmin(scale_steps[step], app->figures.ui_scale);
-    const double shown = wanted_scale(app, next);
-    if (next > app->figures.ui_scale && shown > 1 && !has_room(app, shown)) {
-        return fail(error, ERROR_INPUT, "%.0f %% needs a window of %.0f × %.0f, not %.0f × %.0f", 100 * shown,
-                    least_width(app) * shown, least_height(app) * shown, (double)app->display.width,
+    if (next > app->figures.ui_scale && next > 1 && !has_room(app, next)) {
+        return fail(error, ERROR_INPUT, "%.0f %% needs a window of %.0f × %.0f, not %.0f × %.0f", 100 * next,
+                    least_width(app) * next, least_height(app) * next, (double)app->display.width,
                     (double)app->display.height);
     }
     app->figures.ui_scale = next;
-    ui_scale_update(app);
+    editor_let_go(app->work.editor); // a held control would jump
+    ui_scale_fit(app);
     return true;
 }
 
@@ -189,54 +174,6 @@ static void handle_event(struct app *app, const struct event *event)
     editor_event(app->work.editor, &seen);
 }
 
-struct replay *demo_replay(struct error *error)
-{
-    const struct embedded *file = embedded_find("demo/demo.replay");
-    return replay_parse("demo.replay", (const char *)file->data, file->size, error);
-}
-
-/// Restarts the demo exactly as it began.
-static bool start_anew(struct app *app, struct error *error)
-{
-    theme_use(app->demo.theme);
-    app_open_editor(app);
-    return app_open(app, NULL, error);
-}
-
-bool demo_next(struct app *app, double dt, struct error *error)
-{
-    struct demo *demo = &app->demo;
-    demo->seconds += dt;
-    demo->frame = (long)(60 * demo->seconds + 0.5);
-    if (demo->frame < replay_get_header(app->replay)->frames) return true;
-    replay_destroy(app->replay);
-    app->replay = demo_replay(error);
-    demo->seconds = 0;
-    demo->frame = 0;
-    return app->replay && start_anew(app, error);
-}
-
-/// Whether a window event goes to the editor. The first touch ends a demo with the start scene and the user's settings; closing the window
-/// during a demo loses nothing.
-static bool is_for_editor(struct app *app, const struct event *event)
-{
-    if (!app->replay || event->kind == EVENT_EXPOSE) return true;
-    if (!app->demo.on) return event->kind == EVENT_CLOSE;
-    app->quit |= event->kind == EVENT_CLOSE;
-    const bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
-    if ((pressed && event->action == ACTION_PRESS) || event->kind == EVENT_WHEEL || event->kind == EVENT_DROP) {
-        replay_destroy(app->replay);
-        app->replay = NULL;
-        app->demo.on = false;
-        if (!start_anew(app, &app->error)) {
-            app->failed = true;
-        } else if (platform_is_window(app->platform)) {
-            personal_start(app);
-        }
-    }
-    return event->kind == EVENT_SIZE || event->kind == EVENT_DROP;
-}
-
 /// With a fixed clock, resolution changes depend on frames, so that pictures do not depend on the machine.
 static double resolution_now(const struct app *app)
 {
@@ -248,8 +185,7 @@ static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
     bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->work.editor) || app->paste ||
-                  app->export_job || app->demo.on || app->fetches ||
-                  background_is_behind(models_background(app->work.models));
+                  app->export_job || app->fetches || background_is_behind(models_background(app->work.models));
     app->was_idle = !wanted;
 
     // The next frame waits for input until it is due, or longer if nothing moves. A live recording never skips frames, because its clock
@@ -277,29 +213,21 @@ static bool take_input(struct app *app)
     app->paste = false;
     if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
     for (int i = 0; i < count; i++) {
-        if (!is_for_editor(app, &events[i])) continue;
+        const enum event_kind kind = events[i].kind;
+        if (app->replay && kind != EVENT_EXPOSE && kind != EVENT_CLOSE) continue;
         if (isnan(app->oldest_event)) app->oldest_event = events[i].time;
         struct event event = events[i];
         if (event.kind != EVENT_SIZE) ui_scale_to_ui(app, &event); // recorded in the display's pixels
         handle_event(app, &event);
     }
-    if (app->demo.on && !app->failed) {
-        const double dt = app->frame == 0 ? 0 : app->fixed_clock ? replay_dt : app->frame_start - app->last_time;
-        history_mark_saved(app->work.history); // no question about the demo's edits
-        if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
-    }
     if (app->replay && !app->failed) {
-        const bool forgives = app->demo.on && !app->fixed_clock; // a target may be hidden in a window of another size
-        const long frame = app->demo.on ? app->demo.frame : app->frame;
         struct event event;
-        do {
-            app->error.kind = ERROR_NONE;
-            while (replay_next(app->replay, frame, locate, app, &event, &app->error)) {
-                if (isnan(app->oldest_event)) app->oldest_event = app->frame_start;
-                handle_event(app, &event);
-            }
-        } while (forgives && app->error.kind != ERROR_NONE);
-        app->failed |= app->error.kind != ERROR_NONE;
+        app->error.kind = ERROR_NONE;
+        while (replay_next(app->replay, app->frame, locate, app, &event, &app->error)) {
+            if (isnan(app->oldest_event)) app->oldest_event = app->frame_start;
+            handle_event(app, &event);
+        }
+        app->failed = app->error.kind != ERROR_NONE;
     }
     app->row.input_us = microseconds(app->frame_start, clock_now());
     return true;
@@ -344,7 +272,6 @@ void app_frame(struct app *app)
                                       : pace_next(&app->pace, app->next_time, app->frame_start);
     workspace_edit(work, passed, row);
     app_show_title(app);
-    ui_scale_update(app);
     personal_update(app);
     app->fetches = false; // characters of a new document
     for (int r = 0; work->models_serial != work->document->serial && r < work->document->rig_count; r++) {
@@ -396,7 +323,7 @@ void app_frame(struct app *app)
         if (platform_in_page()) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
         resolution_measure(&app->resolution, &cost);
     }
-    if (app->draw) platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->work.editor));
+    if (app->draw) platform_cursor(app->platform, editor_cursor(app->work.editor));
 
     if (app->log) framelog_push(app->log, row);
     double now = clock_now();
@@ -422,9 +349,6 @@ void app_frame(struct app *app)
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
 enum { LOG_ROWS = 1 << 16 };
 
-/// Whether events come from a file and frames run as fast as they can.
-static bool is_replay(const struct app *app) { return app->replay && !app->demo.on; }
-
 /// Opens a window; if that fails, prints why and runs headless.
 static bool open_platform(struct app *app, struct error *error)
 {
@@ -435,7 +359,7 @@ static bool open_platform(struct app *app, struct error *error)
     double scale = o->scale > 0 ? o->scale : header ? header->scale : 1;
     if (!o->headless && !o->no_draw) {
         struct error refused = {0};
-        int vsync = is_replay(app) || o->frames ? 0 : 1;
+        int vsync = app->replay || o->frames ? 0 : 1;
         app->platform = platform_window(width, height, "wiggly", vsync, &refused);
         if (app->platform) return true;
         fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n",
@@ -455,7 +379,7 @@ static bool open_log(struct app *app, struct error *error)
     struct frame_header header = {
         .gl_renderer = app->draw ? draw_renderer_name() : NULL,
         .solver = evaluation_solver(&app->work.evaluation),
-        .vsync = platform_is_window(app->platform) && !is_replay(app) && !o->frames,
+        .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
         .warm_up = WARM_UP,
         .reference_ms = NAN,
         .first_frame_ms = 1e3 * process_age(),
@@ -538,11 +462,7 @@ static bool start_app(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
     if (o->theme) theme_use((enum theme_kind)(o->theme - 1));
-    app->demo = (struct demo){.on = o->demo, .theme = theme_in_use()};
-    if (o->demo || o->replay) {
-        app->replay = o->demo ? demo_replay(error) : replay_load(o->replay, error);
-        if (!app->replay) return false;
-    }
+    if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
     font_init();
     if (!open_platform(app, error)) return false;
     const bool window = platform_is_window(app->platform);
@@ -569,8 +489,8 @@ static bool start_app(struct app *app, struct error *error)
         if (!app_open(app, NULL, error)) return false;
     }
     uint64_t hash = scene_hash(app->work.document);
-    // A replay only fits its scene; the demo opens its own.
-    if (is_replay(app) && replay_get_header(app->replay)->scene_hash != hash)
+    // A replay only fits its scene.
+    if (app->replay && replay_get_header(app->replay)->scene_hash != hash)
         return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
                     o->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
                     (unsigned long long)hash);
@@ -596,12 +516,12 @@ static bool start_app(struct app *app, struct error *error)
     }
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
     if (o->saves) mkdir(o->saves, 0777);
-    app->fixed_clock = !window || is_replay(app) || app->recording;
+    app->fixed_clock = !window || app->replay || app->recording;
     app->must_redraw = true;
     if (window) {
         platform_on_lost(on_lost, app);
         platform_on_key(keeps_key, app);
-        if (!is_replay(app)) process_catch_end();
+        if (!app->replay) process_catch_end();
     }
     if (is_live(app)) {
         file_guard_reads(false);
@@ -634,7 +554,6 @@ int app_run(const struct app_options *options, struct error *error)
     bool good = start_app(&app, error);
     if (good) {
         long frames = options->frames                    ? options->frames
-                      : app.demo.on && !app.fixed_clock  ? 0
                       : app.replay                       ? replay_get_header(app.replay)->frames
                       : platform_is_window(app.platform) ? 0
                                                          : HEADLESS_FRAMES;

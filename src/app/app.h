@@ -27,7 +27,6 @@ struct app_options {
     const char *log;           ///< timing log, CSV
     const char *screenshot;    ///< PNG of the last frame
     const char *frames_dir;    ///< a PNG for each frame
-    bool demo;                 ///< plays the demo until someone presses something
     const char *replay;        ///< replays events from this file, with its clock
     const char *saves;         ///< folder for what a replay saves and exports; NULL: it writes nothing
     const char *record;        ///< records events to this file

@@ -217,7 +217,6 @@ static const struct verb {
     {"size", EVENT_SIZE, ACTION_PRESS, 0, WITH_POSITION},
     {"drop", EVENT_DROP, ACTION_PRESS, 0, WITH_PATH},
     {"paste", EVENT_PASTE, ACTION_PRESS, 0, WITH_TEXT},
-    {"caption", EVENT_CAPTION, ACTION_PRESS, 0, WITH_TEXT},
     {"close", EVENT_CLOSE, ACTION_PRESS, 0, 0},
 };
 

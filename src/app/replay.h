@@ -9,7 +9,7 @@
 ///     dt 1/60
 ///     frames 1200
 ///     10 pointer @knot(sway,2)
-///     10 press left @knot(sway,2) shift        (also: release, double, key, keyup, repeat, wheel, text, drop, paste, size, caption, close)
+///     10 press left @knot(sway,2) shift        (also: release, double, key, keyup, repeat, wheel, text, drop, paste, size, close)
 ///
 /// Positions are two numbers, logical pixels from the top left, or a target with an optional offset, `@knot(sway,2)+4,-3`,
 /// which is looked up on the screen when the event is played.

@@ -103,14 +103,6 @@ void workspace_show(struct workspace *work, struct frame_row *row);
 
 void workspace_free(struct workspace *work);
 
-/// The bundled recording that loops until the first touch.
-struct demo {
-    bool on;
-    double seconds;        ///< since this round began
-    long frame;            ///< of the recording
-    enum theme_kind theme; ///< the user's
-};
-
 /// The document's own file as last seen. Another program or window may write it.
 struct own_file {
     uint64_t content; ///< file_content() when last read or written
@@ -129,8 +121,7 @@ struct app {
     struct export_job *export_job; ///< NULL: no export
     struct personal *personal;     ///< NULL: not interactive
 
-    struct replay *replay; ///< also the demo's
-    struct demo demo;
+    struct replay *replay; ///< NULL: events come from the user
     struct recording *recording;
     struct framelog *log;
     struct frame_row row; ///< timing of the current frame
@@ -224,11 +215,6 @@ const char *personal_rescue(struct app *app);
 
 /// `keep`: the user could not decide about unsaved work, so its recovery file stays.
 void personal_end(struct app *app, bool keep);
-
-/// The demo's recording. NULL with an error.
-struct replay *demo_replay(struct error *error);
-/// Advances the demo by `dt` seconds; after the end it starts again.
-bool demo_next(struct app *app, double dt, struct error *error);
 
 // Exports in the background: a thread solves and writes a copy of the document; films are drawn frame by frame.
 

@@ -24,8 +24,6 @@ int command_live(int argc, char **argv)
         {"--ui-scale S", "size of text and controls (default: as last chosen with F8, else 1)", OPTION_REAL,
          &app.ui_scale, 0.75, 3},
         OPTION_THEME(&app.theme, "colours (default: as last chosen with F10, else dark)"),
-        {"--demo", "show what the app does, in a loop; the first key or click opens the start scene", OPTION_FLAG,
-         &app.demo, 0, 0},
         {"--welcome", "show what to try first, as on the first start in a window", OPTION_FLAG, &app.welcome, 0, 0},
         {"--still", "start paused, for those whom motion disturbs", OPTION_FLAG, &app.still, 0, 0},
         {"--headless", "draw without a display", OPTION_FLAG, &app.headless, 0, 0},
@@ -56,13 +54,10 @@ int command_live(int argc, char **argv)
         .operands = "[scene.json]",
         .summary = "The app. Without a scene it opens the fox.",
         .options = options,
-        .common_count = 5,
+        .common_count = 4,
     };
     const int result = options_parse(&usage, argc, argv, &app.scene);
     if (result != OPTIONS_RUN) return result;
-    if (app.demo && (app.scene || app.replay || app.record))
-        return options_wrong(&usage,
-                             "--demo brings its own scene and input: expected no scene, --replay or --record");
     if (app.no_draw && (app.screenshot || app.frames_dir || app.gl_debug))
         return options_wrong(&usage, "--no-draw: expected no --screenshot, --frames-dir or --gl-debug");
     if (app.saves && !app.replay)

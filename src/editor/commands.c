@@ -42,7 +42,7 @@ static void run_insert(struct editor *e, int argument)
     core_insert_on_curve(&e->core, core_frame(&e->core), true, (enum holds)argument);
 }
 
-/// Escape undoes one mode at a time: brush, bone picking, presenting, selected bone, selected pin, selection.
+/// Escape undoes one mode at a time: brush, bone picking, selected bone, selected pin, selection.
 static void run_select_none(struct editor *e, int argument)
 {
     (void)argument;
@@ -50,8 +50,6 @@ static void run_select_none(struct editor *e, int argument)
         characters_set_brush(&e->core, false);
     } else if (e->core.focus.pick.use != BONE_SELECTED) {
         e->core.focus.pick = (struct bone_pick){0};
-    } else if (e->core.view.presenter.on) {
-        presenter_toggle(&e->core, 0);
     } else if (e->core.cleaning.of) {
         core_simplify(&e->core, false);
     } else if (e->core.focus.bone.any) {
@@ -383,9 +381,7 @@ const struct command commands[] = {
     COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | FIRST, .run = run_show, SHOW_HELP, {KEY_F1, 0}),
     COMMAND("Any command, by typing", WINDOW, 0, NOTHING, FIRST | ANY_TIME, .run = run_show, SHOW_PALETTE,
             {KEY_F3, 0}),
-    COMMAND("Present: the stage alone", WINDOW, 0, NOTHING, 0, .core = presenter_toggle, 0, {KEY_F5, 0}),
     GESTURE("Right-click", "A menu of what can be done there", WINDOW, 0),
-    GESTURE("Tab", "Panels, while presenting", WINDOW, 0),
     COMMAND("Resize the stage", WINDOW, 0, NOTHING, 0, .run = run_panel, 0, {KEY_F6, 0}),
     COMMAND("Resize the inspector", WINDOW, 0, NOTHING, 0, .run = run_panel, 1, {KEY_F6, SHIFT}),
     ALSO("zoom font", "Everything larger", WINDOW, 0, NOTHING, REPEATS, .request = REQUEST_UI_SCALE, 1, {KEY_F8, 0}),

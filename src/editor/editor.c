@@ -132,7 +132,6 @@ bool editor_wants_frames(const struct editor *editor)
     const struct drag_owner *dragged = editor->core.input.drag.owner;
     return editor->core.view.playback.playing || (dragged && dragged->goes_on) || stage_is_moving(editor->stage) ||
            editor->core.message.seconds_left > 0 || editor->core.unshown || editor->core.step.nudged_seconds > 0 ||
-           presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs) ||
            curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip) ||
            editor->core.app.figures->unkept != editor->core.status.unkept;
 }
@@ -172,7 +171,7 @@ void editor_choose(struct editor *editor, const struct editor_choices *choices)
 struct editor_shown editor_shown(const struct editor *editor)
 {
     const struct core *core = &editor->core;
-    return (struct editor_shown){&core->list, core->view.look, core->view.playback.playing, core->view.presenter.on};
+    return (struct editor_shown){&core->list, core->view.look, core->view.playback.playing};
 }
 
 void editor_refresh(struct editor *editor)
@@ -189,7 +188,7 @@ void editor_show_last(struct editor *editor)
 
 // --- the status line: playback controls, the last message or a hint, and performance figures
 
-enum { PLAY, LOOP, SPEED, AUTO_KEY, KEEP, SIZE, PRESENT, CONTROLS };
+enum { PLAY, LOOP, SPEED, AUTO_KEY, KEEP, SIZE, CONTROLS };
 
 static const struct {
     const char *name, *hint;
@@ -210,8 +209,6 @@ static const struct {
               48, core_flip, SWITCH_KEEP},
     [SIZE] = {"size", "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (F8, Shift+F8)",
               48, NULL, 0},
-    [PRESENT] = {"present", "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
-                 28, presenter_toggle, 0},
 };
 
 /// In a narrow window a message takes the whole line.
@@ -237,8 +234,7 @@ static void paint_control(const struct core *core, struct drawlist *list, int co
     snprintf(size, sizeof size, "%.0f %%", 100 * core->app.figures->ui_scale);
     const bool on[] = {[PLAY] = playback->playing,          [LOOP] = core->view.on[SWITCH_LOOP],
                        [SPEED] = playback->speed != 1,      [AUTO_KEY] = core->view.on[SWITCH_AUTO_KEY],
-                       [KEEP] = core->view.on[SWITCH_KEEP], [SIZE] = core->app.figures->ui_scale != 1,
-                       [PRESENT] = core->view.presenter.on};
+                       [KEEP] = core->view.on[SWITCH_KEEP], [SIZE] = core->app.figures->ui_scale != 1};
     const char *const words[CONTROLS] = {
         [LOOP] = "Loop", [SPEED] = speed, [AUTO_KEY] = "Auto-key", [KEEP] = "Keep", [SIZE] = size};
     const uint32_t color = on[control] ? theme()->accent : hot ? theme()->text : theme()->text_dim;
@@ -248,10 +244,6 @@ static void paint_control(const struct core *core, struct drawlist *list, int co
         if (!playback->playing) drawlist_convex(list, triangle, 3, color);
         for (int bar = 0; bar < 2 && playback->playing; bar++)
             drawlist_rect(list, (struct rect){x + 5 * (float)bar, y - 5, 3, 10}, color);
-    } else if (control == PRESENT) {
-        const float x = roundf(r.x + (r.w - 14) / 2), y = roundf(r.y + (r.h - 12) / 2);
-        drawlist_rounded_line(list, (struct rect){x, y, 14, 10}, 1.5f, 1.25f, color);
-        drawlist_rect(list, (struct rect){x + 4, y + 11, 6, 1}, color);
     } else {
         const bool is_number = control == SPEED || control == SIZE;
         const enum font font = is_number ? FONT_NUMBER : FONT_LABEL;
@@ -480,11 +472,10 @@ static void pass_on(struct editor *editor, const struct event *event)
 
 bool editor_keeps(const struct editor *editor, int key, unsigned mods)
 {
-    const struct core *core = &editor->core;
     const struct ui *ui = inspector_ui(editor->inspector);
     const bool asks = dialogs_cover(editor->dialogs) || ui->popup.id;
     if (command_is_browsers(key, mods)) return false;
-    if (key == KEY_TAB && !asks && !core->view.presenter.on && (mods == 0 || mods == MOD_SHIFT))
+    if (key == KEY_TAB && !asks && (mods == 0 || mods == MOD_SHIFT))
         return ui_has_next(ui, mods & MOD_SHIFT ? -1 : 1);
     const bool is_plain = !(mods & (MOD_CTRL | MOD_ALT | MOD_SUPER)) && (key < KEY_F1 || key > KEY_F12);
     return is_plain || asks || ui->typing || keys_command(key, mods);
@@ -515,14 +506,12 @@ void editor_event(struct editor *editor, const struct event *event)
         event->kind == EVENT_WHEEL || event->kind == EVENT_SIZE)
         tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
-    dialogs_note(editor->dialogs, event);
     const struct drag *drag = &core->input.drag; // on the stage, the right button orbits if it moves
     const bool asks_menu = is_button && event->action == ACTION_RELEASE && event->button == BUTTON_RIGHT &&
                            drag->owner && drag->room == editor->stage && drag->button == BUTTON_RIGHT && !drag->moved;
     if (event->kind == EVENT_TEXT && editor->press.opened) return;
     bool used = (!dialogs_are_asking(editor->dialogs) && keys_first(editor, event)) ||
                 dialogs_event(editor->dialogs, event) || drag_event(core, event) ||
-                (!inspector_ui(editor->inspector)->typing && presenter_event(core, event)) ||
                 (!core->input.drag.owner && inspector_event(editor->inspector, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
@@ -546,16 +535,11 @@ void editor_advance(struct editor *editor, double dt)
     static const double REFRESH = 0.5; // seconds between updates of the figures, to save redraws
     struct status *status = &editor->core.status;
     struct message *message = &editor->core.message;
-    const struct ui *ui = inspector_ui(editor->inspector);
-    const bool busy =
-        ui->typing || inspector_is_dragging(editor->inspector) || ui->popup.id || dialogs_cover(editor->dialogs);
     editor->press = (struct press){.used = false}; // the text event comes in the same frame
     if (message->seconds_left > 0) {
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
-    presenter_advance(&editor->core, dt, busy);
-    dialogs_advance(editor->dialogs, dt);
     editor->core.step.nudged_seconds = fmax(editor->core.step.nudged_seconds - dt, 0);
     status->age += dt;
     if (status->shown.fps <= 0 || status->age >= REFRESH) {
@@ -603,11 +587,10 @@ static void show_divider(struct editor *editor, enum divider divider)
     const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
     const struct rect grip = {roundf(line.x + (line.w - w) / 2), roundf(line.y + (line.h - h) / 2), w, h};
     drawlist_rect(&core->list, line, theme()->border);
-    if (!core->view.presenter.on)
-        drawlist_rounded(&core->list, grip, THICKNESS / 2.0f,
-                         held  ? theme()->accent
-                         : hot ? theme()->text
-                               : theme()->text_dim);
+    drawlist_rounded(&core->list, grip, THICKNESS / 2.0f,
+                     held  ? theme()->accent
+                     : hot ? theme()->text
+                           : theme()->text_dim);
 }
 
 void editor_show(struct editor *editor)
@@ -634,17 +617,11 @@ void editor_show(struct editor *editor)
     stage_show(editor->stage, core);
     dialogs_show_welcome(editor->dialogs, stage_figure(editor->stage, core));
     stage_show_caption(core, dialogs_bottom(editor->dialogs));
-
-    // While presenting, only the panels that have not slid away.
-    const struct presenter *presenter = &core->view.presenter;
-    const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
-    if (below) curves_show(editor->curves, core);
-    if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
-    if (side || below) inspector_show(editor->inspector, covered);
-    if (side) show_divider(editor, core->view.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
-    if (below) status_show(editor);
-
-    dialogs_show_input(editor->dialogs);
+    curves_show(editor->curves, core);
+    show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
+    inspector_show(editor->inspector, covered);
+    show_divider(editor, core->view.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
+    status_show(editor);
     dialogs_show(editor->dialogs);
 
     // The tooltip is for the control under the pointer, else for the focused one.

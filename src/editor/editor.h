@@ -70,7 +70,7 @@ void editor_choose(struct editor *editor, const struct editor_choices *choices);
 struct editor_shown {
     const struct drawlist *list; ///< of the last editor_show()
     enum look look;
-    bool plays, presents;
+    bool plays;
 };
 struct editor_shown editor_shown(const struct editor *editor);
 

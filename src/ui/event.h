@@ -19,7 +19,6 @@ enum event_kind {
     EVENT_CLOSE,   ///< the window's close button
     EVENT_EXPOSE,  ///< the window's content was lost
     EVENT_FOCUS,   ///< the window got the keyboard focus
-    EVENT_CAPTION, ///< text: a demo's caption; empty for none
 };
 
 enum event_action { ACTION_RELEASE, ACTION_PRESS, ACTION_REPEAT };
@@ -74,7 +73,7 @@ struct event {
     float scale;      ///< device pixels per logical pixel
     double time;      ///< arrival, in seconds
     const char *path; ///< EVENT_DROP: valid during the frame
-    const char *text; ///< EVENT_PASTE, EVENT_CAPTION: UTF-8, valid during the call
+    const char *text; ///< EVENT_PASTE: UTF-8, valid during the call
 };
 
 /// Names for replays: "A", "Left", "F1", ","; KEY_NONE or NULL if there is none.

@@ -238,7 +238,7 @@ static void field(struct monkey *m)
     type(m);
 }
 
-/// Adds and removes rigs, switches theme, scale and presentation.
+/// Adds and removes rigs, switches theme and scale.
 static void rig(struct monkey *m)
 {
     static const int keys[] = {KEY_DOWN, KEY_DOWN, KEY_UP, KEY_ENTER, KEY_ENTER, KEY_TAB};
@@ -246,8 +246,8 @@ static void rig(struct monkey *m)
     if (what == 0) {
         monkey_key(m, KEY_DELETE, MOD_SHIFT);
     } else if (what == 1) {
-        static const int settings[] = {KEY_F10, KEY_F8, KEY_F5};
-        monkey_key(m, settings[below(m, 3)], one_in(m, 2) ? MOD_SHIFT : 0);
+        static const int settings[] = {KEY_F10, KEY_F8};
+        monkey_key(m, settings[below(m, 2)], one_in(m, 2) ? MOD_SHIFT : 0);
     } else {
         monkey_key(m, 'A', 0);
         for (int i = below(m, 6); i > 0; i--) monkey_key(m, keys[below(m, 6)], 0);

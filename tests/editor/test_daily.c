@@ -124,16 +124,6 @@ SESSION_TEST(test_refused_name_stays,
     assert_string_equal(s->document->splines[0]->name, "pace2");
 }
 
-SESSION_TEST(test_presenting_says_how_to_leave, panel_open(s, scene, 1280, 720))
-{
-    session_key(s, KEY_F5, 0);
-    assert_said(s->editor, "Esc leaves");
-    for (int i = 0; i < 170; i++) session_frame(s);
-    assert_said(s->editor, "Esc leaves");
-    for (int i = 0; i < 15; i++) session_frame(s);
-    assert_string_equal(said(s->editor), "");
-}
-
 /// A spline that rests everywhere cannot drift, however wide its band.
 SESSION_TEST(test_flat_curve_has_no_warning, panel_open(s, flat, 1280, 720))
 {

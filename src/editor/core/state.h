@@ -27,21 +27,10 @@ struct layout {
     struct rect sheet;      ///< the dope sheet's rows below the ruler; empty if closed
     struct rect value_axis; ///< numbers left of the plot
     struct rect plot;
-    struct rect open;      ///< part of the stage no panel covers
     float stage_share;     ///< of the height above the status line
     float inspector_width; ///< when upright it stands for a height
     bool upright;          ///< the inspector lies below the curves
     float sheet_height;    ///< set by the curves
-};
-
-/// F5: the stage fills the window, and panels slide in over it.
-struct presenter {
-    bool on;
-    bool pinned;  ///< Tab: all panels stay
-    bool shares;  ///< panels shrink the stage until they are hidden again
-    bool pointed; ///< the pointer has moved, so it may call a panel
-    bool side_wanted, below_wanted;
-    float side, below; ///< 0 … 1: visible part of the inspector; of curves and status line
 };
 
 /// Edges that resize panels: above the curves, left of the inspector, above the inspector.
@@ -337,7 +326,6 @@ struct plotted {
 struct view {
     struct layout layout;
     float scale;
-    struct presenter presenter;
     struct playback playback;
     int seen_first, seen_substeps; ///< of the scene, as the playhead counts
     enum look look;

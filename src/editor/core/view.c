@@ -15,8 +15,6 @@ static const float WHOLE = 800;   ///< inspector_width that would take all of th
 
 static float clamped(float value, float lo, float hi) { return fmaxf(lo, fminf(value, hi)); }
 
-static float eased(float share) { return share * share * (3 - 2 * share); }
-
 void core_layout(struct core *core)
 {
     struct layout *l = &core->view.layout;
@@ -43,24 +41,6 @@ void core_layout(struct core *core)
     l->sheet = (struct rect){axis, stage + 1 + RULER_HEIGHT, width, sheet};
     l->plot = (struct rect){axis, stage + 1 + RULER_HEIGHT + sheet, width, plot};
     l->value_axis = (struct rect){list, l->plot.y, AXIS_WIDTH, plot};
-    l->open = l->stage;
-
-    // Presenting offsets the sliding panels and gives the stage the window.
-    const struct presenter *presenter = &core->view.presenter;
-    if (!presenter->on) return;
-    const float across = upright ? 0 : roundf((1 - eased(presenter->side)) * l->inspector.w);
-    const float down = roundf((1 - eased(presenter->below)) * (l->window.h - l->curves.y));
-    l->inspector.x += across;
-    l->curves.w += across;
-    l->ruler.w += across;
-    l->plot.w += across;
-    l->sheet.w += across;
-    l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
-    struct rect *const lower[] = {&l->curves, &l->list, &l->range,      &l->ruler,
-                                  &l->sheet,  &l->plot, &l->value_axis, &l->status};
-    l->stage = presenter->shares || upright ? l->open : l->window; // upright, nothing of it would be left
-    for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
-    if (upright) l->inspector.y += down;
 }
 
 void core_set_panels(struct core *core, double stage_share, double inspector_width)
@@ -84,7 +64,6 @@ float core_reach(const struct core *core, float pixels) { return core->input.fin
 enum divider core_divider_at(const struct core *core, float x, float y)
 {
     const struct layout *l = &core->view.layout;
-    if (core->view.presenter.on) return DIVIDER_NONE;
     const float reach = core_reach(core, DIVIDER_REACH), off = l->upright ? y - l->inspector.y : x - l->inspector.x;
     if (y < l->status.y && fabsf(off) < reach) return l->upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR;
     if (x < l->curves.w && fabsf(y - l->curves.y) < reach) return DIVIDER_STAGE;
@@ -102,75 +81,6 @@ void core_divider_move(struct core *core, enum divider divider, float x, float y
         l->inspector_width = roundf(clamped(across, MIN_INSPECTOR, MAX_INSPECTOR));
     }
     core_layout(core);
-}
-
-static const double SLIDE = 0.18; ///< seconds
-static const float NEAR = 14;     ///< logical pixels from an edge that call its panel
-
-static bool is_wanted(const struct core *core, enum panel panel)
-{
-    const struct layout *l = &core->view.layout;
-    const float x = core->input.pointer_x, y = core->input.pointer_y;
-    const enum panel at = core_panel_at(core, x, y);
-    if (core->view.presenter.pinned) return true;
-    if (!core->view.presenter.pointed) return false;
-    if (panel == PANEL_INSPECTOR && !l->upright) return at == PANEL_INSPECTOR || x > l->window.w - NEAR;
-    return at == PANEL_CURVES || at == PANEL_STATUS || (l->upright && at == PANEL_INSPECTOR) ||
-           y > l->window.h - NEAR;
-}
-
-static const double LEAVING_SHOWN = 3; ///< seconds
-
-void presenter_toggle(struct core *core, int argument)
-{
-    (void)argument;
-    core->view.presenter = (struct presenter){.on = !core->view.presenter.on, .side = 1, .below = 1};
-    core_layout(core);
-    const char *leave = core->input.finger ? "Touch an edge for panels" : "Esc leaves, Tab shows the panels.";
-    core_message(core, false, "%s", core->view.presenter.on ? leave : "");
-    core->message.seconds_left = core->view.presenter.on ? LEAVING_SHOWN : 0;
-}
-
-bool presenter_event(struct core *core, const struct event *event)
-{
-    struct presenter *presenter = &core->view.presenter;
-    if (event->kind == EVENT_POINTER) presenter->pointed = true;
-    if (!presenter->on || event->action != ACTION_PRESS) return false;
-    if (event->kind == EVENT_BUTTON)
-        return presenter_is_sliding(core); // a finger that calls the panels aims at nothing
-    if (event->kind != EVENT_KEY || event->key != KEY_TAB || event->mods) return false;
-    presenter->pinned = !presenter->pinned;
-    presenter->shares |= presenter->pinned;
-    presenter->pointed = false; // else the hover would stay
-    return true;
-}
-
-/// Moves a share towards 0 or 1.
-static void slide(float *share, bool in, double dt)
-{
-    const float by = (float)(dt / SLIDE);
-    *share = in ? fminf(*share + by, 1) : fmaxf(*share - by, 0);
-}
-
-void presenter_advance(struct core *core, double dt, bool busy)
-{
-    struct presenter *presenter = &core->view.presenter;
-    if (!presenter->on) return;
-    if (!busy && !core->input.drag.owner) {
-        presenter->side_wanted = is_wanted(core, PANEL_INSPECTOR);
-        presenter->below_wanted = is_wanted(core, PANEL_CURVES);
-    }
-    if (!presenter_is_sliding(core)) return;
-    slide(&presenter->side, presenter->side_wanted, dt);
-    slide(&presenter->below, presenter->below_wanted, dt);
-    presenter->shares &= presenter->pinned || presenter->side > 0 || presenter->below > 0;
-    core_layout(core);
-}
-
-bool presenter_is_sliding(const struct core *core)
-{
-    const struct presenter *p = &core->view.presenter;
-    return p->on && (p->side != (float)p->side_wanted || p->below != (float)p->below_wanted);
 }
 
 // --- playback: the played range is never saved

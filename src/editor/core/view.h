@@ -19,14 +19,6 @@ float core_reach(const struct core *core, float pixels);
 enum divider core_divider_at(const struct core *core, float x, float y);
 void core_divider_move(struct core *core, enum divider divider, float x, float y);
 
-/// Starts or stops presenting (F5).
-void presenter_toggle(struct core *core, int argument);
-/// Tab shows or hides all panels; true if used.
-bool presenter_event(struct core *core, const struct event *event);
-/// Slides panels; `busy`: visible ones stay.
-void presenter_advance(struct core *core, double dt, bool busy);
-bool presenter_is_sliding(const struct core *core);
-
 /// Plays, or stops at the nearest frame.
 void playback_toggle(struct core *core, int unused);
 /// Advances by `dt` seconds of real time. Counts scene frames that were skipped.

@@ -52,14 +52,6 @@ float dialogs_bottom(const struct dialogs *dialogs);
 /// Opens the card for new users.
 void dialogs_welcome(struct dialogs *dialogs);
 bool dialogs_is_welcoming(const struct dialogs *dialogs);
-/// Records every event, to show pressed keys.
-void dialogs_note(struct dialogs *dialogs, const struct event *event);
-/// Fades shown keys and moves the demo's pointer.
-void dialogs_advance(struct dialogs *dialogs, double dt);
-/// Whether those are still moving.
-bool dialogs_want_frames(const struct dialogs *dialogs);
-/// Draws pressed keys, caption and pointer while presenting and in demos.
-void dialogs_show_input(const struct dialogs *dialogs);
 /// Draws the card for new users beside `figure`, the rigs' rectangle.
 void dialogs_show_welcome(struct dialogs *dialogs, struct rect figure);
 

@@ -1,11 +1,9 @@
-/// The overlays without questions: the commands with their keys (F1) and the palette that runs them (F3), the card for new users, and
-/// pressed keys for an audience.
+/// The overlays without questions: the commands with their keys (F1), the palette that runs them (F3), and the card for new users.
 #include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
 #include "editor/core/view.h"
 #include "editor/dialogs/state.h"
-#include "maths/maths.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -671,113 +669,4 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct rect figure)
     show_right(core, &card, y, FONT_LABEL_BOLD, theme()->accent, closing);
     drawlist_set_clip(list, clip);
     dialogs->card = card.rect;
-}
-
-static const double PRESSED_HOLD = 1.4, PRESSED_FADE = 0.35; ///< seconds after the release
-static const double GLIDE = 0.08;                            ///< seconds that the demo's pointer lags
-static const float DRAG_FROM = 3;                            ///< logical pixels; shorter movements are clicks
-enum { PILL_HEIGHT = 36, PILL_PAD = 18, PILL_MARGIN = 14, PILL_GAP = 8 };
-
-/// Shows a word after its modifiers. Repeats are counted.
-static void tell_pressed(struct pressed *pressed, unsigned mods, const char *word, bool counts)
-{
-    char text[sizeof pressed->text];
-    if (!word) return;
-    snprintf(text, sizeof text, "%s%s%s%s", mods & MOD_CTRL ? "Ctrl + " : "", mods & MOD_SHIFT ? "Shift + " : "",
-             mods & MOD_ALT ? "Alt + " : "", word);
-    const bool again = counts && pressed->seconds > 0 && strcmp(text, pressed->text) == 0;
-    pressed->times = again ? pressed->times + 1 : 1;
-    pressed->seconds = PRESSED_HOLD + PRESSED_FADE;
-    memcpy(pressed->text, text, sizeof text);
-}
-
-void dialogs_note(struct dialogs *dialogs, const struct event *event)
-{
-    static const char *const clicks[] = {
-        [BUTTON_LEFT] = "click", [BUTTON_RIGHT] = "right-click", [BUTTON_MIDDLE] = "middle click"};
-    static const char *const drags[] = {
-        [BUTTON_LEFT] = "drag", [BUTTON_RIGHT] = "right drag", [BUTTON_MIDDLE] = "middle drag"};
-    struct pressed *pressed = &dialogs->pressed;
-    if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE)
-        tell_pressed(pressed, event->mods, command_key_name(event->key), true);
-    if (event->kind == EVENT_WHEEL) tell_pressed(pressed, event->mods, "wheel", false);
-    if (event->kind == EVENT_BUTTON) {
-        pressed->is_down = event->action == ACTION_PRESS;
-        pressed->is_drag = false;
-    }
-    if (event->kind == EVENT_BUTTON && pressed->is_down) {
-        pressed->button = event->button;
-        pressed->x = event->x;
-        pressed->y = event->y;
-        tell_pressed(pressed, event->mods, event->clicks == 2 ? "double-click" : clicks[event->button], true);
-    }
-    if (event->kind == EVENT_POINTER && pressed->is_down && !pressed->is_drag) {
-        pressed->is_drag = maths_hypotf(event->x - pressed->x, event->y - pressed->y) > DRAG_FROM;
-        if (pressed->is_drag) tell_pressed(pressed, event->mods, drags[pressed->button], false);
-    }
-    if (event->kind == EVENT_CAPTION) {
-        pressed->is_demo = true;
-        snprintf(dialogs->caption, sizeof dialogs->caption, "%s", event->text);
-    }
-}
-
-void dialogs_advance(struct dialogs *dialogs, double dt)
-{
-    const struct core *core = dialogs->core;
-    const float share = (float)(1 - maths_exp(-dt / GLIDE));
-    struct pressed *pressed = &dialogs->pressed;
-    pressed->pointer[0] += share * (core->input.pointer_x - pressed->pointer[0]);
-    pressed->pointer[1] += share * (core->input.pointer_y - pressed->pointer[1]);
-    if (!pressed->is_down) pressed->seconds = fmax(pressed->seconds - dt, 0);
-}
-
-static bool shows_input(const struct dialogs *dialogs)
-{
-    return dialogs->core->view.presenter.on || dialogs->pressed.is_demo;
-}
-
-bool dialogs_want_frames(const struct dialogs *dialogs)
-{
-    return shows_input(dialogs) && dialogs->pressed.seconds > 0;
-}
-
-/// A pill centred in the free part of the stage.
-static void show_pill(struct core *core, float bottom, const char *text, float alpha, uint32_t color)
-{
-    const struct rect open = core->view.layout.open;
-    const float most = fmaxf(open.w - 2 * PILL_MARGIN, 2 * PILL_PAD);
-    const float w = fminf(ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_TITLE, text)) + 2 * PILL_PAD, most);
-    const struct rect pill = {roundf(open.x + (open.w - w) / 2), roundf(bottom - PILL_HEIGHT), w, PILL_HEIGHT};
-    const float y = roundf(pill.y + (PILL_HEIGHT + font_cap_height(FONT_LABEL_BOLD, THEME_TEXT_TITLE)) / 2);
-    drawlist_rounded(&core->list, pill, PILL_HEIGHT / 2.0f, theme_fade(theme()->panel, 0.92f * alpha));
-    drawlist_rounded_line(&core->list, pill, PILL_HEIGHT / 2.0f, 1, theme_fade(theme()->control, alpha));
-    drawlist_text_fit(&core->list, pill.x + PILL_PAD, y, w - 2 * PILL_PAD + 1, FONT_LABEL_BOLD, THEME_TEXT_TITLE,
-                      theme_fade(color, alpha), text);
-}
-
-void dialogs_show_input(const struct dialogs *dialogs)
-{
-    struct core *core = dialogs->core;
-    const struct pressed *pressed = &dialogs->pressed;
-    const struct message *message = &core->message;
-    float bottom = core->view.layout.open.y + core->view.layout.open.h - PILL_MARGIN;
-    char text[sizeof pressed->text + 16];
-    if (!shows_input(dialogs)) return;
-    if (dialogs->caption[0]) {
-        show_pill(core, bottom, dialogs->caption, 1, theme()->text);
-        bottom -= PILL_HEIGHT + PILL_GAP;
-    }
-    if (pressed->seconds > 0) {
-        snprintf(text, sizeof text, pressed->times > 1 ? "%s ×%d" : "%s", pressed->text, pressed->times);
-        show_pill(core, bottom, text, (float)fmin(pressed->seconds / PRESSED_FADE, 1), theme()->accent);
-        bottom -= PILL_HEIGHT + PILL_GAP;
-    }
-    if (message->text[0] && core->view.presenter.on && core->view.presenter.below == 0) // the status line is hidden
-        show_pill(core, bottom, message->text, 1, message->is_error ? theme()->error : theme()->text);
-    if (!pressed->is_demo) return;
-    const float x = pressed->pointer[0], y = pressed->pointer[1]; // ringed while a button is down
-    const float arrow[8] = {x, y, x, y + 17, x + 12, y + 12, x, y};
-    if (pressed->is_down) drawlist_circle(&core->list, pressed->pointer, 12, 2, theme()->accent);
-    drawlist_convex(&core->list, arrow, 3, theme()->text);
-    drawlist_line(&core->list, arrow, 4, 1, theme()->panel);
 }

@@ -73,28 +73,14 @@ struct exporting {
     bool more;                   ///< with all of them
 };
 
-/// The last pressed keys, as shown to an audience.
-struct pressed {
-    char text[64];
-    int times;
-    double seconds; ///< seconds it stays visible
-    bool is_down, is_drag;
-    enum event_button button;
-    float x, y;       ///< of the press
-    float pointer[2]; ///< a demo's pointer; glides where the recording jumps
-    bool is_demo;     ///< also shows the pointer
-};
-
 struct dialogs {
     struct core *core;
     struct command_list commands;
     struct dialog dialog;
     struct exporting exporting;
     struct lookup lookup;
-    struct pressed pressed;
-    char caption[160]; ///< of a demo
-    bool welcome;      ///< the card for new users is shown
-    struct rect card;  ///< its rectangle
+    bool welcome;     ///< the card for new users is shown
+    struct rect card; ///< its rectangle
 };
 
 /// `path` may be "".
