@@ -27,7 +27,6 @@ static const struct command {
      false},
     {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",
      "turns motions into a character that splines can drive", false},
-    {"log", command_log, "FILE.csv", "summarises the frame times in a timing log", true},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0], SUMMARY_AT = 33 };

@@ -40,7 +40,7 @@ usage <<END_OF_ROWS
 2|--hlep|unknown option --hlep (did you mean --help?)
 END_OF_ROWS
 expect 0 "--help-all" wiggly --help-all
-for command in live solve rig export check simulate analyze log; do says "--help-all lists $command" "  $command " "$out"; done
+for command in live solve rig export check simulate analyze; do says "--help-all lists $command" "  $command " "$out"; done
 tells 0 "--help lists export" "  export " wiggly --help
 holds "--help leaves out what few need" not grep -q "  solve " <<<"$out"
 holds "help is --help" [ "$out" = "$(wiggly help)" ]
@@ -61,7 +61,6 @@ for solver in chain band; do
         --log $solver.log --result $solver.json "$replays/session.json"
     holds "its log says so, and of no other" [ "$(grep '^# solver' $solver.log)" = "# solver: $solver" ]
 done
-tells 0 "so does the log when it is read" "solver: band" wiggly log band.log
 holds "the band is the default" cmp -s band.csv <(wiggly solve "$scenes/figure4.json")
 for last in "4095 band" "4096 chain"; do
     printf '{"frames": [0, %s], "splines": [{"name": "s", "frequency": 1, "knots": [{"frame": 9, "value": 1}, {"frame": 99, "value": 2}]}]}' "${last% *}" >long.json
@@ -89,27 +88,6 @@ allocations=$(awk -F, 'BEGIN { total = 0 }
 holds "playing allocates nothing after frame 60: $allocations" [ "$allocations" = 0 ]
 expect 0 "the document at the end is a good scene" wiggly check end.json
 expect 0 "it opens again" wiggly live --no-draw --frames 2 end.json
-
-write_run() { # <ms of every frame but each tenth>
-    printf '# schema: wiggly-frames 2\n# warm_up_frames: 2\nframe,t_s,frame_ms,frame_interval_ms,solve_us,swap_us\n'
-    for frame in {0..61}; do
-        ms=$(($1 + (frame % 10 == 5) * (40 - $1)))
-        echo "$frame,$frame.5,$ms,$ms,100,$((ms * 1000 - 100))"
-    done
-}
-write_run 10 >a.csv
-write_run 20 >b.csv
-cat a.csv b.csv >both.csv
-cat b.csv b.csv >twice.csv
-usage <<'END_OF_ROWS'
-0|log a.csv|a.csv: 60 frames of 1 run in 59.01 s, 1.0 fps on average,
-0|log a.csv|6 of 60 frames (10.0 %), up to 1 in a row
-0|log a.csv|40.000 ms: swap_us 39900
-0|log a.csv|solve_us                100.0      100.0      100.0      100.0
-0|log both.csv|120 frames of 2 runs in 
-0|log twice.csv|120 of 120 frames (100.0 %), up to 60 in a row
-END_OF_ROWS
-holds "nothing is said of what was not measured" not grep -q gpu_us <<<"$(wiggly log a.csv)"
 
 # Two programs draw in turn.
 tells 2 "--turns without pipes" "descriptors 3 and 4" sh -c '"$0" live --headless --frames 2 --turns first 3<&- 4>&-' "$WIGGLY"
@@ -218,8 +196,6 @@ whole="frame,\"${escape}[31mred"$'\n'"second\",\"${escape}[31mred"$'\n'"second.r
 tells 0 "a pipe gets them as they are" "$whole" wiggly solve named.json
 expect 0 "and a file" wiggly solve named.json -o named.csv
 says "too" "$whole" "$(<named.csv)"
-sed "s/^# solver: .*/# solver: ${escape}[31m/" band.log >"$red.log"
-escaped 0 "a timing log of such a name" '' wiggly log "$red.log"
 
 # --- a locale whose decimal sign is a comma
 

@@ -41,7 +41,7 @@ fuzzer:
 
 # Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/maths/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
-    $(addprefix src/app/,replay.c settings.c) src/timing/framelog.c \
+    $(addprefix src/app/,replay.c settings.c) src/timing/framelog.c tools/regress/log.c \
     $(wildcard src/rig/*.c src/export/*.c src/simulation/*.c) src/draw/posed.c src/commands/companion.c $(wildcard tests/fuzz/*.c)
 $(B)/fuzzer: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o
 	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined -Wl,--as-needed -Wl,--wrap=_Znwm -Wl,--wrap=_Znam $^ $(LIBS) -o $@

@@ -4,7 +4,7 @@
 /// counter differs in any frame, 2 if the logs cannot be compared, else 0.
 #include "base/need.h"
 #include "regress/bootstrap.h"
-#include "timing/framelog.h"
+#include "regress/log.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

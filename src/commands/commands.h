@@ -11,7 +11,6 @@ int command_solve(int argc, char **argv);
 int command_rig(int argc, char **argv);
 int command_export(int argc, char **argv);
 int command_check(int argc, char **argv);
-int command_log(int argc, char **argv);
 int command_simulate(int argc, char **argv);
 int command_analyze(int argc, char **argv);
 

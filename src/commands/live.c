@@ -1,8 +1,7 @@
-/// `wiggly live`: the live app, in a window or headless; and `wiggly log`, which summarises the timing log that it writes.
+/// `wiggly live`: the live app, in a window or headless.
 #include "app/app.h"
 #include "base/progress.h"
 #include "commands/commands.h"
-#include "timing/framelog.h"
 #include <stdio.h>
 
 /// Reports once that a large file is being read.
@@ -69,23 +68,4 @@ int command_live(int argc, char **argv)
     int status = app_run(&app, &error);
     if (status != 0) fprintf(stderr, "wiggly live: %s\n", error.text);
     return status;
-}
-
-int command_log(int argc, char **argv)
-{
-    const char *path;
-    const struct usage usage = {
-        .command = "log",
-        .operands = "FILE.csv",
-        .summary = "Prints percentiles, frames over budget, a histogram and the slowest frames of a timing log.",
-        .options = (const struct option_spec[]){{0}},
-    };
-    const int result = options_parse(&usage, argc, argv, &path);
-    if (result != OPTIONS_RUN) return result;
-    struct timing_log log;
-    struct error error = {0};
-    const bool done = timing_log_read(path, &log, &error);
-    if (done) distribution_print(&log, path, stdout);
-    timing_log_free(&log);
-    return options_end(done, &error);
 }

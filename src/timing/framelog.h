@@ -1,4 +1,4 @@
-/// The timing log: one row per frame in memory, written as CSV in blocks outside the timed part, summarised at the end, and read back.
+/// The timing log: one row per frame in memory, written as CSV in blocks outside the timed part, and summarised at the end.
 #ifndef TIMING_FRAMELOG_H
 #define TIMING_FRAMELOG_H
 
@@ -60,7 +60,6 @@ long allocation_count(void);
 // The columns of the log, for its writer and its readers, and what sums one up.
 
 #define TIMING_SCHEMA "wiggly-frames 2"
-#define TIMING_SCHEMA_BEFORE "wiggly-frames 1" ///< without frame_interval_ms; still read
 
 enum column_use {
     COLUMN_LABEL,   ///< identifies the frame; never compared
@@ -111,22 +110,5 @@ struct over_budget {
 
 /// Counts the values above `budget`, which are in the order of time; NaN breaks a run.
 struct over_budget statistics_over(const double *values, int count, double budget);
-
-// Reads timing logs back, also several runs in one file (`cat run1.csv run2.csv`).
-
-/// All frames of all runs, without the warm-up.
-struct timing_log {
-    double *values; ///< rows × COLUMN_COUNT, NAN where NA
-    int *run;       ///< per row, from 0
-    int rows, runs;
-    char solvers[64]; ///< by what the splines were solved: "chain", "chain, band"; "" where the log does not say
-};
-
-/// false with a sentence: not readable, another schema, not a number, no frames. Then there is nothing to free.
-bool timing_log_read(const char *path, struct timing_log *log, struct error *error);
-void timing_log_free(struct timing_log *log);
-
-/// Percentiles of every time, frames over budget, a histogram of frame_ms, and where the slowest frames spent their time.
-void distribution_print(const struct timing_log *log, const char *name, FILE *out);
 
 #endif

@@ -16,9 +16,9 @@ enum { LINE = 4096 };
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} commands[] = {{"live", command_live},       {"solve", command_solve}, {"rig", command_rig},
-                {"export", command_export},   {"check", command_check}, {"simulate", command_simulate},
-                {"analyze", command_analyze}, {"log", command_log}};
+} commands[] = {{"live", command_live},      {"solve", command_solve}, {"rig", command_rig},
+                {"export", command_export},  {"check", command_check}, {"simulate", command_simulate},
+                {"analyze", command_analyze}};
 
 /// What the last child has said.
 static struct {
@@ -456,9 +456,6 @@ static const struct {
     {0, "check tests/vectors/loop_moving_equilibrium.json",
      "the equilibrium of this loop does not end where it starts"},
     {1, "check a.FBX", FBX},
-    {2, "log", "FILE.csv"},
-    {1, "log none.csv", "none.csv"},
-    {1, "log c.json", "c.json:1: expected a timing log's '# schema:' line first"},
     // export
     {2, "export s.json", "-o"},
     {2, "export s.json -o x.fbx", ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .gif, .mp4, .webm or .png"},

@@ -12,11 +12,11 @@
 #include "model/gltf.h"
 #include "model/motion.h"
 #include "model/surface.h"
+#include "regress/log.h"
 #include "rig/models.h"
 #include "scene/load.h"
 #include "simulation/integrator.h"
 #include "simulation/soft.h"
-#include "timing/framelog.h"
 #include <fcntl.h>
 #include <jansson.h>
 #include <math.h>
