@@ -93,8 +93,7 @@ struct film_file {
     // .png
     int before, digits; ///< bytes of the path before the number; least number of digits; −1: no number
     const char *after;  ///< the path after the number
-    char *folder;       ///< temporary
-    int lock;           ///< descriptor of the folder's lock
+    off_t bytes;
 };
 
 enum { TRANSPARENT = PALETTE_COLORS, LONGEST = 65535 };
@@ -579,7 +578,7 @@ char *const film_mp4[] = {SCREEN_COLORS("yuv420p"), MP4};
 char *const film_webm[] = {SCREEN_COLORS("yuv420p"), WEBM};
 char *const film_webm_alpha[] = {SCREEN_COLORS("yuva420p"), WEBM};
 
-// === numbered pictures, written to a temporary folder and moved out when complete
+// === numbered pictures, each written to its place
 
 /// Splits the path at its "%04d", or before ".png" if there is more than one picture.
 static bool split_path(struct film_file *file, struct error *error)
@@ -604,17 +603,12 @@ static bool split_path(struct film_file *file, struct error *error)
     return true;
 }
 
-static bool name_picture(const struct film_file *file, long number, char name[PATH_LIMIT])
+static bool name_picture(const struct film_file *file, long number, char name[PATH_LIMIT], struct error *error)
 {
     int length = file->digits < 0 ? snprintf(name, PATH_LIMIT, "%s", file->path)
                                   : snprintf(name, PATH_LIMIT, "%.*s%s%0*ld%s", file->before, file->path,
                                              strchr(file->path, '%') ? "" : "-", file->digits, number, file->after);
-    return length < PATH_LIMIT;
-}
-
-static bool name_temporary(const struct film_file *file, long number, char name[PATH_LIMIT])
-{
-    return snprintf(name, PATH_LIMIT, "%s/%ld.png", file->folder, number) < PATH_LIMIT;
+    return length < PATH_LIMIT || fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
 }
 
 static struct film_file *open_pictures(const char *path, const struct film_shape *shape, struct error *error)
@@ -625,13 +619,9 @@ static struct film_file *open_pictures(const char *path, const struct film_shape
     bool good = split_path(file, error);
     for (long n = 1; good && n <= shape->count; n++) { // all places must be free before anything is drawn
         char name[PATH_LIMIT];
-        good = !name_picture(file, n, name) || file_check_place(name, error);
+        good = name_picture(file, n, name, error) && file_check_place(name, error);
     }
-    if (good) {
-        file->lock = file_folder_beside(path, &file->folder);
-        if (file->lock >= 0) return file;
-        fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
-    }
+    if (good) return file;
     free(file);
     return NULL;
 }
@@ -640,18 +630,12 @@ static enum film_state put_picture(struct film_file *file, const unsigned char *
                                    struct error *error)
 {
     char name[PATH_LIMIT];
+    struct stat status;
     (void)wait;
-    if (!name_temporary(file, file->written + 1, name)) {
-        fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
+    if (!name_picture(file, file->written + 1, name, error) ||
+        !png_write(name, file->shape.width, file->shape.height, pixels, error))
         return FILM_FAILED;
-    }
-    struct error inner;
-    if (!png_write(name, file->shape.width, file->shape.height, pixels, &inner)) {
-        // The user knows the path, not the temporary folder.
-        const bool named = strncmp(inner.text, name, strlen(name)) == 0;
-        fail(error, inner.kind, "%s%s", file->path, named ? inner.text + strlen(name) : ": cannot be written");
-        return FILM_FAILED;
-    }
+    if (stat(name, &status) == 0) file->bytes += status.st_size;
     file->written++;
     return FILM_DONE;
 }
@@ -659,17 +643,9 @@ static enum film_state put_picture(struct film_file *file, const unsigned char *
 static enum film_state finish_pictures(struct film_file *file, bool wait, off_t *bytes, struct error *error)
 {
     (void)wait;
-    *bytes = 0;
-    for (long n = 1; n <= file->written; n++) {
-        char from[PATH_LIMIT], to[PATH_LIMIT];
-        struct stat status;
-        if (!name_temporary(file, n, from) || !name_picture(file, n, to)) {
-            fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
-            return FILM_FAILED;
-        }
-        if (stat(from, &status) == 0) *bytes += status.st_size;
-        if (!file_move(from, to, error)) return FILM_FAILED;
-    }
+    (void)error;
+    *bytes = file->bytes;
+    file->written = 0; // of which none is to be removed
     return FILM_DONE;
 }
 
@@ -677,11 +653,8 @@ static void close_pictures(struct film_file *file)
 {
     char name[PATH_LIMIT];
     for (long n = 1; n <= file->written; n++) {
-        if (name_temporary(file, n, name)) unlink(name);
+        if (name_picture(file, n, name, &(struct error){0})) unlink(name);
     }
-    rmdir(file->folder);
-    close(file->lock);
-    free(file->folder);
     free(file);
 }
 

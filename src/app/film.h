@@ -6,7 +6,7 @@
 #include "rig/import.h"
 #include <sys/types.h>
 
-/// Writes a film completely or not at all; needs no display. A .png path with %d in it (walk-%04d.png) names a sequence, and several
+/// Writes a film completely or not at all, of numbered pictures but for those it has replaced; needs no display. A .png path with %d in it (walk-%04d.png) names a sequence, and several
 /// pictures in walk.png are numbered. Call with solved splines and loaded models.
 bool film_write(const struct opened *opened, const char *path, const struct export_options *options,
                 struct export_report *report, struct error *error);
@@ -41,7 +41,7 @@ struct film_shape {
 
 struct film_file;
 
-/// No file appears under the film's name before finish() returns FILM_DONE.
+/// No film appears under its name before finish() returns FILM_DONE; numbered pictures appear one by one.
 struct film_file_kind {
     /// NULL with an error. Keep `path` until close().
     struct film_file *(*open)(const char *path, const struct film_shape *shape, struct error *error);
@@ -49,7 +49,7 @@ struct film_file_kind {
     enum film_state (*put)(struct film_file *file, const unsigned char *pixels, bool wait, struct error *error);
     /// Call after the last picture. FILM_RUNS while still writing. `*bytes`: size of the files.
     enum film_state (*finish)(struct film_file *file, bool wait, off_t *bytes, struct error *error);
-    /// Deletes unfinished files.
+    /// Deletes unfinished files, and all numbered pictures of an unfinished film.
     void (*close)(struct film_file *file);
 };
 

@@ -195,7 +195,7 @@ bool file_check_unread(const char *path, struct error *error)
     return true;
 }
 
-/// Removes files and folders beside the target that programs which have ended left, once for each folder that is written to in turn. One of
+/// Removes files beside the target that programs which have ended left, once for each folder that is written to in turn. One of
 /// another machine is locked while its program runs.
 static void sweep_stale(const char *target)
 {
@@ -214,22 +214,8 @@ static void sweep_stale(const char *target)
         if (owner <= 0 || owner == (long)getpid() || kill((pid_t)owner, 0) == 0 || errno != ESRCH) continue;
         // Open for writing, though nothing is written: otherwise NFS cannot lock it.
         int file = openat(dirfd(directory), name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-        if (file < 0 && errno == EISDIR)
-            file = openat(dirfd(directory), name, O_RDONLY | O_NOFOLLOW | O_DIRECTORY | O_CLOEXEC);
-        struct stat status;
         if (file < 0) continue;
-        if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0) {
-            const bool is_folder = S_ISDIR(status.st_mode); // which file_folder_beside() has made
-            const int own = is_folder ? dup(file) : -1;
-            DIR *inner = own >= 0 ? fdopendir(own) : NULL;
-            for (const struct dirent *left; inner && (left = readdir(inner)) != NULL;)
-                unlinkat(file, left->d_name, 0);
-            if (inner)
-                closedir(inner);
-            else if (own >= 0)
-                close(own);
-            unlinkat(dirfd(directory), name, is_folder ? AT_REMOVEDIR : 0);
-        }
+        if (flock(file, LOCK_EX | LOCK_NB) == 0) unlinkat(dirfd(directory), name, 0);
         close(file);
     }
     closedir(directory);
@@ -254,18 +240,16 @@ void file_remove_unfinished(void)
     }
 }
 
-/// Creates a file or folder beside the target; the kernel applies the umask. Returns the descriptor or -1 with errno set.
-static int create_beside(const char *target, bool is_folder, mode_t mode, char **temporary)
+/// Creates a file beside the target; the kernel applies the umask. Returns the descriptor or -1 with errno set.
+static int create_beside(const char *target, mode_t mode, char **temporary)
 {
     for (int i = 0; i < MAX_NAMES; i++) {
         char name[64];
         snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
         *temporary = path_beside(target, name);
         need_at_end = file_remove_unfinished;
-        if (!is_folder) replace_unfinished(NULL, *temporary); // a signal may come as soon as the file exists
-        int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
-                   : mkdir(*temporary, mode) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
-                                                  : -1;
+        replace_unfinished(NULL, *temporary); // a signal may come as soon as the file exists
+        int file = open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (file >= 0) {
             flock(file, LOCK_EX | LOCK_NB); // shows sweep_stale() that it is in use
             return file;
@@ -278,12 +262,6 @@ static int create_beside(const char *target, bool is_folder, mode_t mode, char *
         if (errno != EEXIST) return -1;
     }
     return -1;
-}
-
-int file_folder_beside(const char *path, char **folder)
-{
-    sweep_stale(path);
-    return create_beside(path, true, 0700, folder);
 }
 
 /// Gives a new file the owner, group, mode and ACL of an old one. If group or ACL cannot be set, group and others get only the rights that
@@ -347,7 +325,7 @@ static int open_target(const char *path, struct file_output *output)
     output->target = resolve_links(path);
     if (!output->target) return -1;
     sweep_stale(output->target);
-    int file = create_beside(output->target, false, exists ? 0600 : 0666, &output->temporary);
+    int file = create_beside(output->target, exists ? 0600 : 0666, &output->temporary);
     if (file >= 0 && exists && !keep_rights(file, path, &old)) {
         close(file);
         return -1;
@@ -440,19 +418,6 @@ void file_output_discard(struct file_output *output)
     forget_temporary(output);
     free(output->target);
     *output = (struct file_output){0};
-}
-
-bool file_move(const char *from, const char *to, struct error *error)
-{
-    struct stat old;
-    bool good = true;
-    if (!file_check_place(to, error)) return false;
-    if (lstat(to, &old) == 0 && S_ISREG(old.st_mode)) {
-        const int file = open(from, O_RDONLY | O_CLOEXEC);
-        good = file >= 0 && keep_rights(file, to, &old);
-        if (file >= 0) close(file);
-    }
-    return (good && rename(from, to) == 0) || fail_to(error, ERROR_ENVIRONMENT, "be written", to, errno);
 }
 
 bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error)

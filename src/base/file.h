@@ -48,16 +48,8 @@ FILE *file_open_growing(const char *path, struct error *error);
 /// nothing.
 bool file_check_place(const char *path, struct error *error);
 
-/// Moves a complete file to its place; an existing file is replaced, and its rights are kept.
-bool file_move(const char *from, const char *to, struct error *error);
-
 /// Removes the temporary files of all open outputs; for the handler of a signal that ends the program.
 void file_remove_unfinished(void);
-
-/// Makes a folder beside `path` for files that are moved there when all are whole. What a killed program leaves of it, files and all,
-/// goes with the next output beside it. Returns a descriptor to keep open for as long as the folder is there, and in `folder` its path,
-/// which the caller frees; −1 with errno set.
-int file_folder_beside(const char *path, char **folder);
 
 /// Whether two paths are one regular file, also by a link or, where neither exists yet, by the same name in the same folder.
 bool file_same(const char *path, const char *other);

@@ -469,7 +469,7 @@ static const struct {
     {1, "export s.json -o x.mp4 --frames 0:500", "--frames"},
     {1, "export s.json -o x.gif --fps 51", "expected at most 50 pictures a second in a .gif file, got 51"},
     {3, "export s.json -o no/x.glb", "no/x.glb: cannot be written"},
-    {3, "export s.json --frames 0:1 --size 64x36 -o no/x.png", "no/x.png: cannot be written"},
+    {3, "export s.json --frames 0:1 --size 64x36 -o no/x.png", "no/x-0001.png: cannot be written"},
     {3, "export s.json --frames 0:1 --size 64x36 -o pipe.csv", NO_FILE},
     {3, "export s.json --frames 0:1 --size 64x36 -o pipe.gif", NO_FILE},
     // at the limit it is the folder that is wrong

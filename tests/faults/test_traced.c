@@ -325,13 +325,18 @@ static int export_it(void *user)
     return command_export(5, (char *[]){export_, scene_, frames, to, path, NULL});
 }
 
-/// Each file is old or new, and none is old once the last is new.
+/// Each file is old or new, and none is old once the last is new. Numbered pictures may be gone instead of old.
 static int exported_version(void)
 {
     int old = 0, version = 0;
     for (int i = 0; i < MOST_FILES && output->files[i]; i++) {
         struct content found;
-        if (!file_read(work(output->files[i]), 1 << 24, &found.data, &found.size, NULL)) return 0;
+        if (!file_read(work(output->files[i]), 1 << 24, &found.data, &found.size, NULL)) {
+            if (output->film != &film_png) return 0;
+            version = OLD;
+            old++;
+            continue;
+        }
         const bool is_new = found.size == expected[i].size && memcmp(found.data, expected[i].data, found.size) == 0;
         const bool is_old = found.size == 4 && memcmp(found.data, "old\n", 4) == 0;
         free(found.data);

@@ -98,7 +98,7 @@ holds "without waiting for ffmpeg" [ ! -e "$scratch/late" ]
 is "and leaves what was there before" "walk.mp4 old" "$(ls -A "$scratch/out") $(cat "$scratch/out/walk.mp4")"
 "$WIGGLY" export $tail --fps 2400 --size 640x360 -o "$scratch/out/walk.png" 2>"$scratch/stderr" &
 program=$!
-until find "$scratch/out" -name 2.png | grep -q . || ! kill -0 $program 2>/dev/null; do sleep 0.05; done
+until find "$scratch/out" -name walk-0002.png | grep -q . || ! kill -0 $program 2>/dev/null; do sleep 0.05; done
 kill -TERM $program
 status=0
 wait $program || status=$?
