@@ -185,7 +185,7 @@ enum { CTRL = MOD_CTRL, SHIFT = MOD_SHIFT, ALT = MOD_ALT, CTRL_SHIFT = MOD_CTRL 
 /// A row of the list that Examples opens.
 #define EXAMPLE(named, number)                                                                                       \
     COMMAND(named, NOTHING, IN_EXAMPLES, NOTHING, 0, .request = REQUEST_FIGURE, number, {0})
-/// A row only in F1: a gesture or held key.
+/// A row only in F1 that cannot be run: a gesture or held key.
 #define GESTURE(gestured, named, heading, places)                                                                    \
     {                                                                                                                \
         .name = (named), .about = ABOUT_##heading, .at = (places), .gesture = (gestured)                             \

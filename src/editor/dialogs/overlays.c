@@ -11,12 +11,12 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { COMMANDS_MOST = 256 };
+enum { COMMANDS_MOST = 320 };
 
-/// The commands that match the typed text, best first.
+/// The commands that match the typed text, best first, or all of them under headings.
 struct commands_found {
-    const struct command *list[COMMANDS_MOST];
-    const char *missing[COMMANDS_MOST]; ///< from need_missing()
+    const struct command *list[COMMANDS_MOST]; ///< NULL: a heading
+    const char *missing[COMMANDS_MOST];        ///< from need_missing(); the heading
     int count;
 };
 
@@ -30,39 +30,18 @@ enum {
     MENU_ROWS = 8
 };
 
-enum {
-    MAX_COLUMNS = 4,
-    COLUMN_LEAST = 340,
-    COLUMN_MOST = 400,
-    ROW = 20,
-    HEADER = 22,
-    GROUP_GAP = 10,
-    HELP_TITLE = 66,
-    FIELD = 32,
-    FIELD_WIDTH = 300,
-    HERE = 10, ///< rows about the place under the pointer
-    HELP_MARGIN = 24,
-    KEYS_GAP = 12,
-    WHEEL = 48, ///< pixels per notch
-    LEAST_NOTE = 120
-};
-
 /// The layout for a window.
 struct page {
     struct rect box, field, body; ///< the body shows the list
-    float view, content;          ///< of the list, in its unit
-    int columns;                  ///< F1: column c holds headings first[c] … first[c + 1] − 1
-    int first[MAX_COLUMNS + 1];
-    float here;   ///< F1: height of the rows for the place under the pointer, with the gap below
-    float column; ///< F1: a column's width
-    bool in_page; ///< the app runs in a browser, which has keys of its own
+    float view, content;          ///< of the list, in rows
 };
 
-static struct page palette_page(const struct commands_found *found, struct rect window)
+/// At most so many rows.
+static struct page palette_page(const struct commands_found *found, struct rect window, float most)
 {
     const float rest = PALETTE_FIELD + 3 * PALETTE_PAD, room = window.h - 32 - rest;
     const float w = fminf(PALETTE_WIDTH, window.w - 16);
-    float rows = fmaxf(fminf(floorf(room / PALETTE_ROW), PALETTE_ROWS), 1);
+    float rows = fmaxf(fminf(floorf(room / PALETTE_ROW), most), 1);
     const float top = roundf(window.y + (window.h - rest - rows * PALETTE_ROW) / 3);
     rows = fminf(rows, fmaxf((float)found->count, 1)); // the field keeps its place
     struct page page = {.view = rows, .content = (float)found->count};
@@ -84,74 +63,42 @@ static struct page menu_page(const struct commands_found *found, const float cor
     return page;
 }
 
-/// The first command under a heading, and how many there are. Commands of one heading are contiguous.
-static const struct command *headed(const struct command_list *list, int about, int *count)
+static void add_found(struct commands_found *found, const struct command *command, const char *text)
 {
-    const struct command *first = list->commands, *end = list->commands + list->count;
-    while (first < end && (int)first->about != about) first++;
-    for (*count = 0; first + *count < end && (int)first[*count].about == about;) ++*count;
-    return first;
+    if (found->count == COMMANDS_MOST) return;
+    found->missing[found->count] = text;
+    found->list[found->count++] = command;
 }
 
-static float heading_height(const struct command_list *list, int about)
+/// What F1 begins with: the rows for the place under the pointer, then all of them under their headings.
+static void find_headed(const struct dialogs *dialogs, struct commands_found *found)
 {
-    int count;
-    headed(list, about, &count);
-    return HEADER + ROW * (float)count + GROUP_GAP;
-}
-
-/// Fills the columns up to a height; false if there are too few.
-static bool fill_columns(const struct command_list *list, struct page *page, float limit)
-{
-    int column = 0;
-    float height = 0;
-    page->first[0] = 0;
-    for (int about = 0; about < ABOUT_COUNT; about++) {
-        const float more = heading_height(list, about);
-        if (height > 0 && height + more > limit) {
-            if (++column == page->columns) return false;
-            page->first[column] = about;
-            height = 0;
-        }
-        height += more;
+    static const struct {
+        enum place place;
+        const char *title;
+    } titles[] = {
+        {ON_CURVES, "Over the curves"},    {ON_KNOT, "Over a knot"}, {ON_TIME, "Over the ruler and the status line"},
+        {ON_STAGE, "Over the stage"},      {ON_PIN, "Over a pin"},   {ON_INSPECTOR, "In the inspector"},
+        {ON_ROW, "Over the splines' list"}};
+    const struct command_list *all = &dialogs->commands;
+    for (size_t i = 0; i < sizeof titles / sizeof titles[0]; i++) {
+        if (titles[i].place == dialogs->lookup.at) add_found(found, NULL, titles[i].title);
     }
-    for (int c = column + 1; c <= page->columns; c++) page->first[c] = ABOUT_COUNT;
-    return true;
-}
-
-static int grid_rows(int count, int columns) { return (count + columns - 1) / columns; }
-
-static struct page keys_page(const struct dialogs *dialogs, const struct commands_found *found, struct rect window)
-{
-    const struct command_list *list = &dialogs->commands;
-    const float room_x = fmaxf(window.w - 32, 1), room_y = fmaxf(window.h - 16, 1), step = 4;
-    const int fitting = (int)((room_x - HELP_MARGIN) / (COLUMN_LEAST + HELP_MARGIN));
-    const int columns = fitting < 1 ? 1 : fitting > MAX_COLUMNS ? MAX_COLUMNS : fitting;
-    struct page page = {.columns = columns};
-
-    // The lowest columns that hold all headings in order. Whole pixels, so that a list that just fits does not scroll.
-    float limit = 0;
-    for (int about = 0; about < ABOUT_COUNT; about++) limit += heading_height(list, about) / (float)columns;
-    limit = ceilf(limit);
-    while (!fill_columns(list, &page, limit)) limit += step;
-
-    page.here = HEADER + (float)(ROW * grid_rows(HERE, columns)) + 3 * GROUP_GAP;
-    const float all = page.here + (limit - GROUP_GAP);
-    const float w = fminf(room_x, (float)(columns * (COLUMN_MOST + HELP_MARGIN) + HELP_MARGIN));
-    const float h = fminf(room_y, all + HELP_TITLE + HELP_MARGIN);
-    page.box = (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 2), w, h};
-    page.body = (struct rect){page.box.x, page.box.y + HELP_TITLE, w, fmaxf(h - HELP_TITLE - HELP_MARGIN / 2, 0)};
-    page.column = (w - (float)(HELP_MARGIN * (columns + 1))) / (float)columns;
-    page.view = page.body.h;
-    page.content =
-        (dialogs->lookup.filter.typed[0] ? (float)(ROW * grid_rows(found->count, columns)) : all) + HELP_MARGIN / 2;
-    const float field = fminf(FIELD_WIDTH, w / 2 - HELP_MARGIN);
-    page.field = (struct rect){page.box.x + w - HELP_MARGIN - field, page.box.y + 18, field, FIELD};
-    return page;
+    for (int i = 0; i < all->count; i++) {
+        if (all->commands[i].at & dialogs->lookup.at) add_found(found, &all->commands[i], NULL);
+    }
+    enum about about = ABOUT_NOTHING;
+    for (int i = 0; i < all->count; i++) {
+        const struct command *command = &all->commands[i];
+        if (command->about == ABOUT_NOTHING) continue;
+        if (command->about != about) add_found(found, NULL, about_titles[command->about]);
+        add_found(found, command, NULL);
+        about = command->about;
+    }
 }
 
 /// Finds the commands that match, and lays out the overlay that is open. For the palette those that can run now come first, of these files
-/// last; for F1 all its rows are in the table's order.
+/// last; F1 has gestures too, and without typed text all its rows under headings.
 static struct page lookup_page(const struct dialogs *dialogs, struct commands_found *found)
 {
     const struct core *core = dialogs->core;
@@ -178,25 +125,23 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
         if (fits[i] > best) best = fits[i];
     }
 
+    const bool headed = dialogs->lookup.kind == LOOKUP_KEYS && !filter->typed[0];
     found->count = 0;
-    for (enum fit fit = FIT_START; fit >= ui_filter_least(best); fit--) {
+    if (headed) find_headed(dialogs, found);
+    for (enum fit fit = FIT_START; !headed && fit >= ui_filter_least(best); fit--) {
         for (int order = 0; order < 4; order++) {
             for (int i = 0; i < count; i++) {
                 const int late = runs && commands[i].about == ABOUT_FILE;
                 const char *lacks = missing[commands[i].needs];
                 if (fits[i] != fit || (lacks ? 2 : 0) + late != order) continue;
-                found->missing[found->count] = lacks;
-                found->list[found->count++] = &commands[i];
+                add_found(found, &commands[i], lacks);
             }
         }
     }
     if (menu && found->count > MENU_ROWS) found->count = MENU_ROWS;
     const struct rect window = core->view.layout.window;
-    struct page page = menu   ? menu_page(found, dialogs->lookup.corner, window)
-                       : runs ? palette_page(found, window)
-                              : keys_page(dialogs, found, window);
-    page.in_page = core->app.in_page;
-    return page;
+    return menu ? menu_page(found, dialogs->lookup.corner, window)
+                : palette_page(found, window, runs ? PALETTE_ROWS : COMMANDS_MOST);
 }
 
 /// Opens it, or closes it if it is open.
@@ -290,7 +235,8 @@ static void palette_event(struct lookup *lookup, const struct page *page, const 
     if (choice >= count) choice = count - 1;
     lookup->choice = choice < 0 ? 0 : choice;
     ui_list_show(&lookup->list, (float)lookup->choice, 1);
-    if (runs && !found->missing[choice]) *lookup = (struct lookup){.chosen = found->list[choice]};
+    const struct command *chosen = runs ? found->list[choice] : NULL;
+    if (chosen && command_runs(chosen) && !found->missing[choice]) *lookup = (struct lookup){.chosen = chosen};
 }
 
 bool lookup_event(struct dialogs *dialogs, const struct event *event)
@@ -299,7 +245,7 @@ bool lookup_event(struct dialogs *dialogs, const struct event *event)
     struct event meant = *event;
     if (!lookup->kind) return false;
     if (!drag_lookup(lookup, &meant)) return true;
-    const bool key = meant.kind == EVENT_KEY, press = meant.action == ACTION_PRESS;
+    const bool key = meant.kind == EVENT_KEY;
     if (key && meant.action == ACTION_RELEASE) return false; // the key was pressed before it opened
     if (meant.kind == EVENT_POINTER || meant.kind > EVENT_WHEEL) return false;
     struct commands_found found;
@@ -311,16 +257,8 @@ bool lookup_event(struct dialogs *dialogs, const struct event *event)
         if (lookup->kind == LOOKUP_MENU) lookup->kind = LOOKUP_PALETTE;
     } else if (key && meant.key == KEY_ESCAPE) {
         lookup->kind = LOOKUP_NONE;
-    } else if (lookup->kind != LOOKUP_KEYS) {
+    } else {
         palette_event(lookup, &page, &found, &meant);
-    } else if (press && (meant.kind == EVENT_BUTTON || meant.key == KEY_ENTER)) {
-        lookup->kind = LOOKUP_NONE;
-    } else if (meant.kind == EVENT_WHEEL) {
-        ui_list_scroll(&lookup->list, -WHEEL * meant.dy);
-    } else if (key && (meant.key == KEY_UP || meant.key == KEY_DOWN)) {
-        ui_list_scroll(&lookup->list, meant.key == KEY_UP ? -WHEEL : WHEEL);
-    } else if (key && (meant.key == KEY_PAGE_UP || meant.key == KEY_PAGE_DOWN)) {
-        ui_list_scroll(&lookup->list, meant.key == KEY_PAGE_UP ? -page.view : page.view);
     }
     return true;
 }
@@ -329,89 +267,6 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
 {
     float y = ui_baseline(r, font, THEME_TEXT_NORMAL);
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
-}
-
-/// Draws rows of keys and names from `r` on, one row high.
-static void show_rows(struct drawlist *list, const struct page *page, struct rect r, float keys,
-                      const struct command *const *rows, int count)
-{
-    for (int i = 0; i < count; i++, r.y += ROW) {
-        char text[COMMAND_KEYS];
-        command_keys(rows[i], page->in_page, text);
-        paint_line(list, (struct rect){r.x, r.y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, text);
-        paint_line(list, (struct rect){r.x + keys, r.y, r.w - keys, r.h}, FONT_LABEL, theme()->text_dim,
-                   rows[i]->name);
-    }
-}
-
-/// Width of the widest keys with a gap, at most half a column.
-static float keys_width(const struct page *page, const struct command *const *rows, int count)
-{
-    float widest = 0;
-    for (int i = 0; i < count; i++) {
-        char text[COMMAND_KEYS];
-        command_keys(rows[i], page->in_page, text);
-        widest = fmaxf(widest, font_width(FONT_LABEL, THEME_TEXT_NORMAL, text));
-    }
-    return fminf(ceilf(widest) + KEYS_GAP, floorf(0.5f * page->column));
-}
-
-/// Draws rows in even columns from `y` on.
-static void show_grid(struct drawlist *list, const struct page *page, float y, const struct command *const *rows,
-                      int count)
-{
-    const int high = grid_rows(count, page->columns);
-    for (int first = 0, c = 0; first < count; first += high, c++) {
-        const int length = first + high < count ? high : count - first;
-        const float x = page->box.x + HELP_MARGIN + (page->column + HELP_MARGIN) * (float)c;
-        const struct rect r = {x, y, page->column, ROW};
-        show_rows(list, page, r, keys_width(page, rows + first, length), rows + first, length);
-    }
-}
-
-/// F1 without typed text: the rows for the place under the pointer, then all of them under their headings.
-static void show_headings(struct drawlist *list, const struct dialogs *dialogs, const struct page *page, float y)
-{
-    static const struct {
-        enum place place;
-        const char *title;
-    } titles[] = {
-        {ON_CURVES, "Over the curves"},    {ON_KNOT, "Over a knot"}, {ON_TIME, "Over the ruler and the status line"},
-        {ON_STAGE, "Over the stage"},      {ON_PIN, "Over a pin"},   {ON_INSPECTOR, "In the inspector"},
-        {ON_ROW, "Over the splines' list"}};
-    const struct command_list *commands = &dialogs->commands;
-    const struct command *rows[COMMANDS_MOST];
-    const float left = page->box.x + HELP_MARGIN, top = y + GROUP_GAP / 2;
-    int here = 0;
-    for (int i = 0; i < commands->count && here < HERE; i++) {
-        if (commands->commands[i].at & dialogs->lookup.at) rows[here++] = &commands->commands[i];
-    }
-    const struct rect back = {page->box.x + HELP_MARGIN / 2, y, page->box.w - HELP_MARGIN, page->here - GROUP_GAP};
-    drawlist_rounded(list, back, 6, theme()->raised);
-    for (size_t i = 0; i < sizeof titles / sizeof titles[0]; i++) {
-        const struct rect title = {left, top, page->box.w - 2 * HELP_MARGIN, HEADER};
-        if (titles[i].place == dialogs->lookup.at)
-            paint_line(list, title, FONT_LABEL_BOLD, theme()->accent, titles[i].title);
-    }
-    show_grid(list, page, top + HEADER, rows, here);
-
-    for (int c = 0; c < page->columns; c++) {
-        int count = 0;
-        for (int i = 0; i < commands->count; i++) {
-            const int about = (int)commands->commands[i].about;
-            if (about >= page->first[c] && about < page->first[c + 1]) rows[count++] = &commands->commands[i];
-        }
-        struct rect r = {left + (page->column + HELP_MARGIN) * (float)c, y + page->here, page->column, ROW};
-        const float keys = keys_width(page, rows, count);
-        for (int about = page->first[c], row = 0; about < page->first[c + 1]; about++, row += count) {
-            const struct rect heading = {r.x, r.y, r.w, HEADER};
-            headed(commands, about, &count);
-            paint_line(list, heading, FONT_LABEL_BOLD, theme()->accent, about_titles[about]);
-            r.y += HEADER;
-            show_rows(list, page, r, keys, rows + row, count);
-            r.y += ROW * (float)count + GROUP_GAP;
-        }
-    }
 }
 
 /// Draws a field with its text, or what it is for.
@@ -431,8 +286,7 @@ void lookup_show(const struct dialogs *dialogs)
 {
     struct core *core = dialogs->core;
     const struct lookup *lookup = &dialogs->lookup;
-    const bool is_menu = lookup->kind == LOOKUP_MENU, is_palette = lookup->kind != LOOKUP_KEYS;
-    const bool typed = lookup->filter.typed[0] != 0;
+    const bool is_menu = lookup->kind == LOOKUP_MENU;
     struct drawlist *drawn = &core->list;
     struct commands_found found;
     if (!lookup->kind) return;
@@ -446,55 +300,40 @@ void lookup_show(const struct dialogs *dialogs)
     const struct rect field = page.field;
     if (!is_menu)
         show_field(drawn, field, lookup->filter.typed,
-                   is_palette && lookup->at != IN_EXAMPLES ? "Type what you want to do" : "Type to search");
+                   lookup->kind == LOOKUP_PALETTE && lookup->at != IN_EXAMPLES ? "Type what you want to do"
+                                                                               : "Type to search");
     const struct rect body = page.body;
-    if (is_palette) {
-        struct rect row = {body.x + 10, body.y, body.w - 20, PALETTE_ROW};
-        const int first = (int)list.offset, last = first + (int)page.view;
-        for (int i = first; i < found.count && i < last; i++, row.y += PALETTE_ROW) {
-            const char *name = found.list[i]->name, *missing = found.missing[i];
-            const struct rect whole = {body.x, row.y, body.w, row.h};
-            char keys[COMMAND_KEYS];
-            command_keys(found.list[i], dialogs->core->app.in_page, keys);
-            if (i == lookup->choice) {
-                drawlist_rounded(drawn, whole, 4, theme()->fill);
-            } else if (rect_contains(whole, core->input.pointer_x, core->input.pointer_y)) {
-                drawlist_rounded(drawn, whole, 4, theme()->raised);
-            }
-            const float right = ceilf(ui_text_width(keys)), from = row.x + ceilf(ui_text_width(name)) + PALETTE_GAP;
-            const float till = row.x + row.w - (right > 0 ? right + PALETTE_GAP : 0);
-            paint_line(drawn, row, FONT_LABEL, missing ? theme()->text_dim : theme()->text, name);
-            paint_line(drawn, (struct rect){row.x + row.w - right, row.y, right + 1, row.h}, FONT_LABEL,
-                       theme()->text_dim, keys);
-            if (!missing || till - from <= 40) continue;
-            const float width = fminf(ceilf(ui_text_width(missing)), till - from);
-            paint_line(drawn, (struct rect){till - width, row.y, width + 1, row.h}, FONT_LABEL, theme()->text_dim,
-                       missing);
+    struct rect row = {body.x + 10, body.y, body.w - 20, PALETTE_ROW};
+    const int first = (int)list.offset, last = first + (int)page.view;
+    for (int i = first; i < found.count && i < last; i++, row.y += PALETTE_ROW) {
+        const char *missing = found.missing[i];
+        if (!found.list[i]) {
+            paint_line(drawn, row, FONT_LABEL_BOLD, theme()->accent, missing);
+            continue;
         }
-        if (found.count == 0)
-            paint_line(drawn, row, FONT_LABEL, theme()->text_dim,
-                       is_menu ? "Nothing can be done here now." : "No command matches. Esc closes.");
-        return;
+        const char *name = found.list[i]->name;
+        const struct rect whole = {body.x, row.y, body.w, row.h};
+        char keys[COMMAND_KEYS];
+        command_keys(found.list[i], dialogs->core->app.in_page, keys);
+        if (i == lookup->choice) {
+            drawlist_rounded(drawn, whole, 4, theme()->fill);
+        } else if (rect_contains(whole, core->input.pointer_x, core->input.pointer_y)) {
+            drawlist_rounded(drawn, whole, 4, theme()->raised);
+        }
+        const float right = ceilf(ui_text_width(keys)), from = row.x + ceilf(ui_text_width(name)) + PALETTE_GAP;
+        const float till = row.x + row.w - (right > 0 ? right + PALETTE_GAP : 0);
+        paint_line(drawn, row, FONT_LABEL, missing ? theme()->text_dim : theme()->text, name);
+        paint_line(drawn, (struct rect){row.x + row.w - right, row.y, right + 1, row.h}, FONT_LABEL,
+                   theme()->text_dim, keys);
+        if (!missing || till - from <= 40) continue;
+        const float width = fminf(ceilf(ui_text_width(missing)), till - from);
+        paint_line(drawn, (struct rect){till - width, row.y, width + 1, row.h}, FONT_LABEL, theme()->text_dim,
+                   missing);
     }
-
-    const float left = page.box.x + HELP_MARGIN, y = body.y - list.offset;
-    const float title = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_TITLE, "Keys")) + HELP_MARGIN;
-    drawlist_text_fit(drawn, left, page.box.y + 40, field.x - left - 8, FONT_LABEL_BOLD, THEME_TEXT_TITLE,
-                      theme()->text, "Keys");
-    const struct rect note = {left + title, page.box.y + 22, field.x - left - title - 8, FIELD - 8};
-    if (note.w >= LEAST_NOTE)
-        paint_line(drawn, note, FONT_LABEL, theme()->text_dim, "Esc closes. F3 runs any command by its name.");
-    const struct rect clip = drawlist_push_clip(drawn, body);
-    if (!typed) {
-        show_headings(drawn, dialogs, &page, y);
-    } else if (found.count > 0) {
-        show_grid(drawn, &page, y, found.list, found.count);
-    } else {
-        const struct rect row = {left, y, page.box.w - 2 * HELP_MARGIN, ROW};
-        paint_line(drawn, row, FONT_LABEL, theme()->text_dim, "Nothing matches.");
-    }
-    drawlist_set_clip(drawn, clip);
-    ui_list_bar(&list, drawn, (struct rect){body.x + body.w - 8, body.y, 4, body.h}, 0);
+    if (found.count == 0)
+        paint_line(drawn, row, FONT_LABEL, theme()->text_dim,
+                   is_menu ? "Nothing can be done here now." : "No command matches. Esc closes.");
+    ui_list_bar(&list, drawn, (struct rect){body.x + body.w - 4, body.y, 4, body.h}, 0);
 }
 
 enum { CARD_MARGIN = 16, CARD_PAD = 14, CARD_LINE = 20, CARD_GAP = 16, BAND_MARGIN = 6, CARD_TITLE = 40 };

@@ -18,10 +18,10 @@ enum lookup_kind { LOOKUP_NONE, LOOKUP_KEYS, LOOKUP_PALETTE, LOOKUP_MENU };
 struct lookup {
     enum lookup_kind kind; ///< the open one
     struct ui_filter filter;
-    struct ui_list list;          ///< F1: in pixels; palette: in rows
+    struct ui_list list;          ///< in rows
     unsigned at;                  ///< F1, menu: enum place under the pointer when it opened
     float corner[2];              ///< menu: where it opened
-    int choice;                   ///< palette: the row that Enter runs
+    int choice;                   ///< the row that Enter runs
     const struct command *chosen; ///< command to run, or NULL
     bool held, moved;             ///< a button is pressed, and has scrolled
     float y;                      ///< scrolled up to here
@@ -86,8 +86,8 @@ struct dialogs {
 /// `path` may be "".
 void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path);
 
-/// Typing searches, the wheel and drags scroll, Esc closes. In F1 arrows scroll, and Enter or a click closes. In the palette arrows choose,
-/// and Enter or a click runs a command. true for keys, text, buttons, drags and wheel while it is open.
+/// Typing searches, arrows choose, the wheel and drags scroll, Esc closes; Enter or a click runs a command. true for keys, text, buttons, drags
+/// and wheel while it is open.
 bool lookup_event(struct dialogs *dialogs, const struct event *event);
 void lookup_show(const struct dialogs *dialogs);
 
