@@ -34,22 +34,6 @@ static json_t *string_value(const char *string)
     return value;
 }
 
-/// The lines `key = value` of earlier settings, with one for each recent file.
-static void read_lines(json_t *values, char *text)
-{
-    char key[64], value[PATH_LIMIT];
-    json_object_set_new(values, "recent", json_array());
-    for (char *line; (line = strsep(&text, "\n")) != NULL;) {
-        if (sscanf(line, " %63[^ =#] = %4095[^\r]", key, value) != 2) continue;
-        const bool is_flag = strcmp(value, "yes") == 0 || strcmp(value, "no") == 0;
-        json_t *old = is_flag ? json_boolean(value[0] == 'y') : json_loads(value, JSON_DECODE_ANY, NULL);
-        if (!old) old = string_value(value);
-        json_t *list = json_object_get(values, key);
-        if (json_array_append(list, old) != 0) json_object_set(values, key, old); // not a list
-        json_decref(old);
-    }
-}
-
 struct settings *settings_load(const char *path, struct error *error)
 {
     struct settings *settings = need_zeroed(1, sizeof *settings);
@@ -60,16 +44,12 @@ struct settings *settings_load(const char *path, struct error *error)
     settings->lock = -1;
     settings->values = json_object();
     if (access(path, F_OK) != 0 || !file_read_text(path, LARGEST, &text, &size, error)) return settings;
-    if (text[strspn(text, " \t\r\n")] != '{') {
-        read_lines(settings->values, text);
-    } else {
-        json_t *values = json_read(text, size, JSON_REJECT_DUPLICATES, &wrong);
-        if (!values)
-            fail(error, ERROR_INPUT, "%s:%d: %s: correct or delete this file, else no setting is kept", path,
-                 wrong.line, wrong.text);
-        json_object_update(settings->values, values);
-        json_decref(values);
-    }
+    json_t *values = json_read(text, size, JSON_REJECT_DUPLICATES, &wrong);
+    if (!values)
+        fail(error, ERROR_INPUT, "%s:%d: %s: correct or delete this file, else no setting is kept", path, wrong.line,
+             wrong.text);
+    json_object_update(settings->values, values);
+    json_decref(values);
     free(text);
     return settings;
 }
