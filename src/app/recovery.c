@@ -216,50 +216,31 @@ void autosave_close(struct autosave *autosave, bool keep)
     free(autosave);
 }
 
-// --- the rescue: to the recovery file, or else to a new file beside the original
+// --- the rescue: to the recovery file, or else to a new folder
 
-enum { MAX_NAMES = 1000 };
-
-/// Writes the work into a folder ("": working folder) under an unused name made of `name`.
-static bool rescue_to(const struct app *app, const char *folder, const char *name, char *path, size_t size,
-                      struct error *error)
-{
-    const char *dot = strrchr(name, '.');
-    const int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
-    for (int i = 1; i <= MAX_NAMES; i++) {
-        char number[16] = "";
-        if (i > 1) snprintf(number, sizeof number, "-%d", i);
-        int length =
-            snprintf(path, size, "%s%s%.*s.recovered%s.json", folder, folder[0] ? "/" : "", stem, name, number);
-        if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
-        struct stat status; // lstat: even a dangling link is someone's
-        if (lstat(path, &status) != 0) return scene_save(app->work.document, path, error);
-    }
-    return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
-}
-
-/// Tries the scene's folder, the home folder, then a new folder of our own in the temporary directory, where nobody can have planted a
-/// link. A file system may refuse the scene's name, with its longer end, so a plain one is tried there, too. Reports the first failure.
+/// Makes the folder in the home folder, or else in the temporary directory, where nobody can have planted a link. Reports the first failure.
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
-    char beside[PATH_LIMIT], shared[] = "/tmp/wiggly-XXXXXX";
-    const char *home = getenv("HOME") ? getenv("HOME") : "";
-    const char *names[] = {app_path(app)[0] ? path_name(app_path(app)) : "untitled.json", "untitled.json"};
+    const char *const folders[] = {getenv("HOME") ? getenv("HOME") : "", "/tmp"};
     struct error other;
-    path_folder(app_path(app), beside);
-    for (int n = 0; n < 2; n++) {
-        if (rescue_to(app, beside, names[n], path, size, n ? &other : error)) return true;
-        if (rescue_to(app, home, names[n], path, size, &other)) return true;
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, size, "%s/wiggly-recovered-XXXXXX", folders[i]);
+        if (!mkdtemp(path)) {
+            fail(i ? &other : error, ERROR_ENVIRONMENT, "%s: %s", folders[i], strerror(errno));
+            continue;
+        }
+        const size_t length = strlen(path);
+        snprintf(path + length, size - length, "/untitled.json");
+        if (scene_save(app->work.document, path, i ? &other : error)) return true;
+        path[length] = '\0';
+        rmdir(path);
     }
-    if (!mkdtemp(shared)) return false;
-    if (rescue_to(app, shared, names[1], path, size, &other)) return true;
-    rmdir(shared);
     return false;
 }
 
 void app_rescue(struct app *app, struct error *error)
 {
-    char path[4096];
+    char path[PATH_LIMIT];
     struct error trouble = {0}, why = *error;
     if (app->replay || !app->work.document || history_is_saved(app->work.history))
         return; // a replay can be played again

@@ -227,7 +227,9 @@ holds "the recording has its length" grep -q '^frames [1-9]' "$scratch/mine.repl
 start_server
 rm -rf "$XDG_STATE_HOME"
 touch "$XDG_STATE_HOME" # nobody can write in it, not even root
-start_mine
+HOME=$scratch start_mine
 edit Right Right Right
 kill $app
-check_rescue "no place for recovery files" "$scratch/mine.recovered.json" "$scratch/mine.recovered.json: open it to continue"
+await ended
+rescued=$(echo "$scratch"/wiggly-recovered-*/untitled.json)
+check_rescue "no place for recovery files" "$rescued" "$rescued: open it to continue"
