@@ -1,0 +1,101 @@
+/// What `wiggly simulate` and `wiggly flesh` share: a soft body that is shaken, their options, and its motion to a requested accuracy.
+#ifndef COMMANDS_SHAKING_H
+#define COMMANDS_SHAKING_H
+
+#include "commands/commands.h"
+#include "simulation/soft.h"
+
+/// Modes among which the one that is seen most is found.
+enum { SHAKING_MODES = 24 };
+
+/// Start from shaking_default().
+struct shaking {
+    const char *name;          ///< the mesh's path, for messages
+    const char *soft_text;     ///< NULL: by default
+    double amplitude, damping; ///< NAN: by default
+    double seconds;            ///< NAN: by default
+    double fps;
+    double accuracy; ///< allowed relative RMS error
+    double budget;   ///< millions of element-steps
+    int substeps;    ///< per frame; 0: by accuracy
+    struct shake shake;
+    struct loads loads;
+    struct base_drive drive;
+    struct soft_options soft; ///< `young`, `frequency`, `density` are 0 until shaking_check()
+    bool verbose;
+};
+struct shaking shaking_default(void);
+
+/// Rows of an option table.
+#define SHAKING_OPTIONS(by)                                                                                            \
+    {"--drive-frequency HZ",                                                                                           \
+     "frequency of burst, sine or mid-sweep (1.375 times that of the body)",                                           \
+     OPTION_REAL,                                                                                                      \
+     &(by)->drive.frequency,                                                                                           \
+     1e-3,                                                                                                             \
+     1e3},                                                                                                             \
+        {"--seconds S", "duration in seconds (4, or 8 periods of the body)", OPTION_REAL, &(by)->seconds, 1e-3, 3600}, \
+        {"--accuracy E", "allowed error, relative to the size of the motion; sets the steps (0.02)",                   \
+         OPTION_REAL,    &(by)->accuracy,                                                                              \
+         1e-4,           1},                                                                                           \
+        {"--budget M",                                                                                                 \
+         "end the search for those steps after M million element-steps (20)",                                          \
+         OPTION_REAL,                                                                                                  \
+         &(by)->budget,                                                                                                \
+         0,                                                                                                            \
+         1e6},                                                                                                         \
+        {"--substeps N", "integrator steps per frame, instead of --accuracy", OPTION_INT, &(by)->substeps, 1, 1000},   \
+        {"--tets N", "approximate number of tetrahedra (3000)", OPTION_INT, &(by)->soft.tets, 50, 200000},             \
+        {"--thickness H",                                                                                              \
+         "make the mesh a sheet H metres thick; 0: close its openings, however large",                                 \
+         OPTION_REAL,                                                                                                  \
+         &(by)->soft.thickness,                                                                                        \
+         0,                                                                                                            \
+         1e6},                                                                                                         \
+        {"--frequency HZ",                                                                                             \
+         "frequency of the mode seen most (--modal: the lowest); sets the stiffness (2)",                              \
+         OPTION_REAL,                                                                                                  \
+         &(by)->soft.frequency,                                                                                        \
+         1e-3,                                                                                                         \
+         1e3},                                                                                                         \
+        {"--young E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &(by)->soft.young, 1e-6, 1e15},    \
+        {"--softness N", "how many times softer where the map is 1 (8)",                                               \
+         OPTION_REAL,    &(by)->soft.softness.times,                                                                   \
+         1e-3,           1e3},                                                                                         \
+        {"--poisson NU", "Poisson's ratio (0.35)", OPTION_REAL, &(by)->soft.poisson, 0, 0.49},                         \
+        {"--density RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &(by)->soft.density, 1e-6, 1e9}, \
+    {                                                                                                                  \
+        "--verbose", "show progress even if standard error is not a terminal", OPTION_FLAG, &(by)->verbose, 0, 0       \
+    }
+
+/// Checks stiffness and mass, and fills in the usual ones; NULL or an error text.
+const char *shaking_check(struct shaking *by);
+
+/// Sets how the base moves, or lets the body swing freely; each has defaults of its own.
+void shaking_drive(struct shaking *by, enum drive_kind kind);
+
+/// Chooses the drive's frequency and the duration where they are not given: 4 s or more, 8 periods of the body, and 4 after the drive, but no
+/// longer than analyze takes. Returns the duration; `fits`: it holds the drive and then a period.
+double shaking_seconds(struct shaking *by, const struct soft *soft, bool *fits);
+
+/// How many frames there are.
+int shaking_frames(const struct shaking *by);
+
+/// The motion of the nodes, and how it was computed.
+struct record {
+    int frames, nodes, substeps;
+    bool calmed;       ///< some steps were first order
+    double cost;       ///< element-steps
+    double left;       ///< relative error, −1 if unknown
+    float (*place)[3]; ///< frames × nodes, relative to the base; the caller frees it
+};
+
+/// Simulates until the error is small enough or the budget is used up; NULL in `place` if it fails. Of `soft` it changes only the body's
+/// scratch memory. Errors: no rest under gravity, an unstable motion, not enough memory.
+bool record_create(struct record *record, const struct shaking *by, struct soft *soft, struct error *error);
+
+/// Vertex positions of a frame with the nodes moved on by `offset`. Vertices outside the lattice keep theirs. `x` has room for all nodes.
+void record_embed(const struct record *record, int frame, const struct soft *soft, const double offset[3],
+                  double (*x)[3], float (*position)[3]);
+
+#endif
