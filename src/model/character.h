@@ -5,8 +5,8 @@
 /// A curved coordinate adds |z|² A + Re(z² B) as NAME.sq = A, NAME.re2 = Re B and NAME.im2 = Im B with the weights |z|², Re z² and −Im z².
 /// Targets may turn normals too, to first order. First come all vertices of the mesh at rest in their order, then copies of those that have
 /// several texture coordinates; each material is a primitive, and all share the vertices. The mesh's
-/// extras say {"targetNames": […], "wiggly": {"coordinates": [{"name", "frequency", "damping", …}]}}; "scale" there says by how
-/// much an export has scaled its targets up, "most" the largest |z| that the curves are known for.
+/// extras say {"targetNames": […], "wiggly": {"coordinates": [{"name", "frequency", "damping", …, of flesh "base" and "bone"}]}}; "scale" there says
+/// by how much an export has scaled its targets up, "most" the largest |z| that the curves are known for.
 #ifndef MODEL_CHARACTER_H
 #define MODEL_CHARACTER_H
 
@@ -29,7 +29,10 @@ struct coordinate {
     double damping;    ///< ratio
     double explained;  ///< share of the complex variance, 0 … 1
     double pca1, pca2; ///< shares that the first and the first two real principal components explain, 0 … 1
-    double most; ///< the largest |z| that the curves are known for; beyond it they go on as straight as they can
+    double base[3]; ///< g: x'' + 2ζω x' + ω² x = −g·a for Re x where the base accelerates by a, in m/s² along
+                    ///< the model's axes
+    char *bone;     ///< the bone that is its base; NULL: none is known
+    double most;    ///< the largest |z| that the curves are known for; beyond it they go on as straight as they can
     union {
         struct {
             float (*re)[3];             ///< Re Ñ, metres a unit of the spline, per vertex
@@ -94,6 +97,11 @@ bool character_from_gltf(const struct gltf *gltf, struct character *character, s
 /// Writes a .glb, whole or not at all. Without `turn_normals` targets move only vertices and the file is two fifths smaller; on reading,
 /// figure_derive() replaces them.
 bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error);
+
+/// Writes a copy of the file that `gltf` was read from, as a .glb, with coordinates of a mesh as further morph targets: their Ñ has a row for
+/// each vertex of all its parts, one after the other. All else stays as it is; clips with weights of this mesh get zeros for the new ones.
+bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, const struct coordinate *coordinates,
+                       int count, struct error *error);
 
 /// Leaves an empty character.
 void character_free(struct character *character);

@@ -69,6 +69,7 @@ void character_free(struct character *c)
 {
     for (int i = 0; i < c->coordinate_count; i++) {
         free(c->coordinates[i].name);
+        free(c->coordinates[i].bone);
         for (int p = 0; p < COORDINATE_PARTS; p++) free(c->coordinates[i].parts[p]);
     }
     free(c->coordinates);
@@ -325,6 +326,10 @@ bool character_from_gltf(const struct gltf *gltf, struct character *c, struct er
         coordinate->pca2 = real_of(known, "pca2");
         coordinate->most = real_of(known, "most") > 0 ? real_of(known, "most") : INFINITY;
         for (int p = 0; p < count; p++) take_target(mesh, parts[p], p == 1 ? -1 : 1, scale, coordinate->parts[p]);
+        const char *bone = json_string_value(json_object_get(known, "bone"));
+        coordinate->bone = bone ? strdup(bone) : NULL;
+        for (i = 0; i < 3; i++)
+            coordinate->base[i] = json_number_value(json_array_get(json_object_get(known, "base"), i));
         coordinate++;
     }
     made = (made && place_as_node(gltf, mesh, c)) || fail_no_memory(error, gltf->path);

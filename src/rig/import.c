@@ -113,6 +113,40 @@ static bool add_swing(struct document *document, const struct coordinate *coordi
            (!(damping.value > 0) || edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error));
 }
 
+/// Lets flesh hang on its bones: each coordinate that has one gets a spline that follows it in the clip. The model is the document's last rig.
+static bool hang_flesh(struct document *document, const struct character *soft, const struct gltf_clip *clip,
+                       struct error *error)
+{
+    const int rig = document->rig_count - 1, first = document->spline_count;
+    struct drive drives[MODEL_MAX_DRIVES];
+    struct rig changed = *document->rigs[rig];
+    bool done = true;
+    changed.model.drives = drives;
+    changed.model.drive_count = 0;
+    for (int i = 0; done && i < soft->coordinate_count && changed.model.drive_count < MODEL_MAX_DRIVES; i++) {
+        const struct coordinate *coordinate = &soft->coordinates[i];
+        const struct param frequency = param_number(coordinate->frequency),
+                           damping = param_number(coordinate->damping);
+        const int spline = document->spline_count;
+        if (!coordinate->bone || !(coordinate->frequency > 0)) continue;
+        drives[changed.model.drive_count++] =
+            (struct drive){.name = coordinate->name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+        struct joint_motion motion = {.model = changed.name ? changed.name : changed.model.model,
+                                      .by_file = !changed.name,
+                                      .joint = coordinate->bone,
+                                      .of = MOTION_BASE,
+                                      .gain = 1,
+                                      .coordinate = coordinate->name};
+        const struct param equilibrium = {.track = -1, .motion = &motion};
+        done = edit_spline_add(document, -1, coordinate->name, NULL, error) &&
+               edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error) &&
+               edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error) &&
+               edit_parameter(document, spline, PARAMETER_EQUILIBRIUM, &equilibrium, error);
+    }
+    return done && (document->spline_count == first ||
+                    (edit_rig_set(document, rig, &changed, error) && fit_to_clip(document, rig, clip, error)));
+}
+
 bool import_add(struct document *document, const char *path, int spline, struct error *error)
 {
     char file[PATH_LIMIT];
@@ -123,6 +157,8 @@ bool import_add(struct document *document, const char *path, int spline, struct 
     const struct coordinate *soft =
         imported.figure.character.coordinate_count > 0 ? imported.figure.character.coordinates : NULL;
     const struct gltf_clip *clip = gltf->clip_count > 0 ? &gltf->clips[0] : NULL;
+    const bool hangs = soft && soft->bone && clip && spline < 0;
+    if (hangs) soft = NULL;
     struct drive drive = {.name = soft ? soft->name : NULL, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
     struct rig rig = {.kind = RIG_MODEL,
                       .model = {.model = file,
@@ -142,8 +178,9 @@ bool import_add(struct document *document, const char *path, int spline, struct 
     const bool is_empty = document->spline_count == 0 && document->rig_count == 0;
     bool added = !is_empty || (soft && !clip) || set_range(document, &rig.model, clip, error);
     drive.spline = spline >= 0 ? spline : document->spline_count;
-    added =
-        added && (!soft || spline >= 0 || add_swing(document, soft, error)) && edit_rig_add(document, &rig, error);
+    added = added && (!soft || spline >= 0 || add_swing(document, soft, error)) &&
+            edit_rig_add(document, &rig, error) &&
+            (!hangs || hang_flesh(document, &imported.figure.character, clip, error));
     imported_free(&imported);
     return added;
 }

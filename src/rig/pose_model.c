@@ -128,8 +128,10 @@ struct followed {
     struct clip_play play;
     enum motion_of of;
     struct chain_axes axes;
-    double scale; ///< metres in the world per unit of the file
-    double seen;  ///< last angle in degrees, so that turns continue past half a turn
+    double scale;      ///< metres in the world per unit of the file
+    double base[3];    ///< of MOTION_BASE: the coordinate's numbers g,
+    double carried[3]; ///< and by how much a round carries the joint on, metres per second
+    double seen;       ///< last angle in degrees, so that turns continue past half a turn
     double
         drift; ///< what a round adds, per second: a steady travel bends nothing, and must not jump back after each round
 };
@@ -160,6 +162,18 @@ static double followed_at(struct followed *followed, double time)
            travelled;
 }
 
+/// Where the joint is in the clip, in the model's space without its travel, after `time`.
+static vec3s joint_at(struct followed *followed, double time)
+{
+    const struct gltf *gltf = &followed->imported->gltf;
+    const double into = time - followed->play.first;
+    gltf_pose_loop(gltf, followed->clip, time, followed->pose);
+    gltf_pose_world(gltf, followed->pose);
+    vec3s at = vec3_from(followed->pose->world[followed->node] + 12);
+    for (int k = 0; k < 3; k++) at.raw[k] -= (float)(followed->carried[k] * into);
+    return at;
+}
+
 /// Samples a joint, averaged over a frame on either side: clips have keys on frames with straight lines between, and each corner would kick
 /// the spline. The result is the cubic B-spline of the keys. A clip that does not loop is held at the scene's ends.
 struct smoothing {
@@ -178,7 +192,40 @@ static void sample_raw(struct smoothing *smoothing, const struct document *docum
 {
     const int end = document_samples(document) - 1;
     const int held = followed->play.loops ? sample : sample < 0 ? 0 : sample > end ? end : sample;
-    *smoothing_at(smoothing, sample) = followed_at(followed, posing_clip_time(document, held, &followed->play));
+    if (followed->of != MOTION_BASE) {
+        *smoothing_at(smoothing, sample) = followed_at(followed, posing_clip_time(document, held, &followed->play));
+        return;
+    }
+    // The second difference of the joint's places, turned back by its turn from rest, times g.
+    vec3s place[3];
+    for (int k = 0; k < 3; k++) { // the middle one last, which leaves its pose
+        const int at = held + (k == 2 ? 0 : 2 * k - 1);
+        const int kept = followed->play.loops ? at : at < 0 ? 0 : at > end ? end : at;
+        place[k] = joint_at(followed, posing_clip_time(document, kept, &followed->play));
+    }
+    const mat3s rest = glms_mat4_pick3(mat4_from(followed->imported->rest.world[followed->node]));
+    const mat3s now = glms_mat4_pick3(mat4_from(followed->pose->world[followed->node]));
+    vec3s way = glms_vec3_sub(glms_vec3_add(place[0], place[1]), glms_vec3_scale(place[2], 2));
+    way = glms_mat3_mulv(rest, glms_mat3_mulv(mat3_inverse(now), way));
+    double sum = 0;
+    for (int k = 0; k < 3; k++) sum += followed->base[k] * (double)way.raw[k];
+    *smoothing_at(smoothing, sample) = held == sample ? sum : 0;
+}
+
+/// Sums second differences up twice, so that the solver, which takes them again, has them: y₍ₛ₊₁₎ − 2y₍ₛ₎ + y₍ₛ₋₁₎ = dₛ, from rest. In a `loop` without
+/// their mean and the drift, so that it closes. Constant and linear parts move nothing.
+static void sum_twice(double *samples, int count, bool loop)
+{
+    for (int round = 0; round < 2; round++) {
+        double mean = 0, sum = 0;
+        for (int s = 0; s < count && loop; s++) mean += samples[s] / count;
+        for (int s = 0; s < count; s++) {
+            const double next = samples[s] - mean;
+            if (round == 0) sum += next; // the slope behind the sample
+            samples[s] = sum;
+            if (round == 1) sum += next; // the value before it
+        }
+    }
 }
 
 bool clip_follow(const void *context, const struct document *document, const struct joint_motion *motion,
@@ -208,6 +255,13 @@ bool clip_follow(const void *context, const struct document *document, const str
                                 .scale = model->scale};
     if (clip >= 0) followed.play = clip_play(model, &imported->gltf.clips[clip]);
     if (followed.node < 0) return false;
+    const int soft = motion->coordinate ? figure_find(&imported->figure, motion->coordinate) : -1;
+    if (motion->of == MOTION_BASE && (soft < 0 || clip < 0)) { // nothing moves it
+        memset(samples, 0, (size_t)document_samples(document) * sizeof *samples);
+        return true;
+    }
+    if (motion->of == MOTION_BASE)
+        memcpy(followed.base, imported->figure.character.coordinates[soft].base, sizeof followed.base);
     const int substeps = document->substeps;
     struct smoothing smoothing = {.substeps = substeps};
     const struct clip_play *play = &followed.play;
@@ -220,13 +274,17 @@ bool clip_follow(const void *context, const struct document *document, const str
     const bool repeats = play->loops && !waits && length >= 1 && length < 1e6 && fabs(length - round(length)) < 1e-4;
     const int period = repeats ? (int)round(length) : 0;
 
-    if (play->loops && play->length > 0) {
+    if (motion->of == MOTION_BASE && play->loops && play->length > 0) {
+        const vec3s first = joint_at(&followed, play->first), last = joint_at(&followed, play->first + play->length);
+        for (int k = 0; k < 3; k++) followed.carried[k] = (double)(last.raw[k] - first.raw[k]) / play->length;
+    } else if (play->loops && play->length > 0) {
         const double first = followed_at(&followed, play->first);
         followed.drift = (followed_at(&followed, play->first + play->length) - first) / play->length;
         followed.seen = 0;
     }
     double mean = 0;
-    for (int n = 0; n < MEAN_STEPS; n++) mean += followed_at(&followed, play->first + play->length * n / MEAN_STEPS);
+    for (int n = 0; n < MEAN_STEPS && motion->of != MOTION_BASE; n++)
+        mean += followed_at(&followed, play->first + play->length * n / MEAN_STEPS);
     mean /= MEAN_STEPS;
     for (int s = 1 - substeps; s < substeps - 1; s++) sample_raw(&smoothing, document, &followed, s);
     for (int s = 0; s < count; s++) {
@@ -239,6 +297,10 @@ bool clip_follow(const void *context, const struct document *document, const str
         for (int k = 1 - substeps; k < substeps; k++) sum += (substeps - abs(k)) * *smoothing_at(&smoothing, s + k);
         samples[s] = sum / substeps / substeps - mean;
     }
+    if (motion->of != MOTION_BASE) return true;
+    const bool closes = period > 0 && period < count;
+    sum_twice(samples, closes ? period : count, closes);
+    for (int s = closes ? period : count; s < count; s++) samples[s] = samples[s - period];
     return true;
 }
 

@@ -942,7 +942,7 @@ static void motions_bake(struct evaluation *evaluation, const struct document *d
         uint64_t key = hash_text(HASH_START, motion->joint);
         key = hash_word(hash_number(key, document->fps), (uint64_t)document->substeps);
         key = hash_word(hash_word(key, (uint64_t)document->first_frame), (uint64_t)document->last_frame);
-        key = hash_word(key, (uint64_t)motion->of);
+        key = hash_text(hash_word(key, (uint64_t)motion->of), motion->coordinate);
         key = hash_word(hash_word(key, source->follow ? 1 : 0), source->version);
         if (model >= 0) {
             const struct model_rig *of = &document->rigs[model]->model;

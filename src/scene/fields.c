@@ -541,8 +541,11 @@ void print_param(struct text *text, const struct document *document, const struc
 
 // --- the joint that a spline follows: { "model": "walk", "joint": "hips", "of": "turn", "gain": 1 }
 
-const char *const motion_words[] = {
-    [MOTION_TURN] = "turn", [MOTION_ACROSS] = "across", [MOTION_UP] = "up", [MOTION_KINDS] = NULL};
+const char *const motion_words[] = {[MOTION_TURN] = "turn",
+                                    [MOTION_ACROSS] = "across",
+                                    [MOTION_UP] = "up",
+                                    [MOTION_BASE] = "base",
+                                    [MOTION_KINDS] = NULL};
 
 const struct field motion_fields[] = {
     {FIELD("model", FIELD_MODEL, struct joint_motion, model), .is_required = true,
@@ -551,6 +554,7 @@ const struct field motion_fields[] = {
     {FIELD("of", FIELD_WORD, struct joint_motion, of), .words = motion_words, .is_required = true},
     {FIELD("gain", FIELD_NUMBER, struct joint_motion, gain), .range = FIELD_ANY, .usual = {1}},
     {FIELD("chain", FIELD_TEXT, struct joint_motion, chain)},
+    {FIELD("coordinate", FIELD_TEXT, struct joint_motion, coordinate)},
     FIELD_END(struct joint_motion),
 };
 

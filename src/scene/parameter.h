@@ -9,8 +9,9 @@
 #include <stdbool.h>
 #include <wiggly/more.h>
 
-/// The part of a joint's motion that is followed: degrees about world up, or metres across the chain's direction or up.
-enum motion_of { MOTION_TURN, MOTION_ACROSS, MOTION_UP, MOTION_KINDS };
+/// The part of a joint's motion that is followed: degrees about world up, metres across the chain's direction or up, or what its acceleration does
+/// to a coordinate of flesh that hangs on it.
+enum motion_of { MOTION_TURN, MOTION_ACROSS, MOTION_UP, MOTION_BASE, MOTION_KINDS };
 
 /// The file's words for them, ended by NULL.
 extern const char *const motion_words[];
@@ -24,8 +25,9 @@ struct joint_motion {
     bool by_file;       ///< `model` is the file
     char *joint;        ///< its name; not looked up here
     enum motion_of of;
-    double gain; ///< factor
-    char *chain; ///< the chain whose direction counts, or NULL
+    double gain;      ///< factor
+    char *chain;      ///< the chain whose direction counts, or NULL
+    char *coordinate; ///< of the model, whose numbers MOTION_BASE takes; NULL: none, and it stands still
     struct json_t *extra;
 };
 

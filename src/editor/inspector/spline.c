@@ -507,8 +507,10 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
     if (may_follow) build_track_button(in, parameter, r);
     if (!spline->parameter[parameter].motion) return;
 
-    static const struct ui_choice motions[] = {
-        [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
+    static const struct ui_choice motions[] = {[MOTION_TURN] = {"turn", "Turn"},
+                                               [MOTION_ACROSS] = {"across", "Across"},
+                                               [MOTION_UP] = {"up", "Up"},
+                                               [MOTION_BASE] = {"base", "Base"}};
     static const struct row part = {NAMED("joint.of", "joint's"),
                                     .hint = "Its turn in degrees, or its movement across or up in metres",
                                     .undo = "Set joint's motion", CHOICES(motions)};

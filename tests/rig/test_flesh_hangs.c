@@ -1,0 +1,72 @@
+/// Flesh that hangs on a bone: what the bone's acceleration does to a coordinate, round after round.
+#include "gltf_builder.h"
+#include "rig/import.h"
+#include "rig/posing.h"
+#include <complex.h>
+
+enum { KEYS = 25 };
+
+static const double frequency = 2, damping = 0.1, along = 3, sway = 0.2;
+
+/// A bone that lies on its side, sways once a second along the world's y, and travels along z or not; a coordinate of its mesh answers what its
+/// own x feels.
+static const char *write_swaying(float travel)
+{
+    static struct builder b;
+    float times[KEYS], places[KEYS][3], way[KEYS][3], turns[KEYS][4];
+    char members[2048];
+    b = (struct builder){0};
+    for (int k = 0; k < KEYS; k++) {
+        times[k] = (float)k / 24;
+        memcpy(places[k], (float[3]){0, (float)(sway * sin(2 * M_PI * k / 24)), 0}, sizeof *places);
+        memcpy(way[k], (float[3]){0, 0, travel * times[k]}, sizeof *way);
+        memcpy(turns[k], (float[4]){0, 0, (float)M_SQRT1_2, (float)M_SQRT1_2}, sizeof *turns);
+    }
+    ADD(&b, FLOAT, float, 3, 0, 0, 0, 0, 1, 0, 1, 0, 0);
+    add_data(&b, FLOAT, "SCALAR", KEYS, times, sizeof times);
+    add_data(&b, FLOAT, "VEC3", KEYS, places, sizeof places);
+    add_data(&b, FLOAT, "VEC4", KEYS, turns, sizeof turns);
+    add_data(&b, FLOAT, "VEC3", KEYS, way, sizeof way);
+    snprintf(members, sizeof members,
+             "'scenes':[{'nodes':[0]}],'nodes':[{'name':'root','children':[1]},{'name':'bone','children':[2]},{'mesh'"
+             ":0}],'meshes':[{'extras':{"
+             "'targetNames':['belly.re','belly.im'],'wiggly':{'coordinates':[{'name':'belly','frequency':%g,"
+             "'damping':%g,'base':[%g,0,0],'bone':'bone'}]}},'primitives':[{'attributes':{'POSITION':0},'targets':"
+             "[{'POSITION':0},{'POSITION':0}]}]}],'animations':[{'name':'Sway','samplers':[{'input':1,'output':2},"
+             "{'input':1,'output':3},{'input':1,'output':4}],'channels':[{'sampler':2,'target':{'node':0,'path':'"
+             "translation'}},{'sampler':0,'target':{'node':1,'path':'translation'}},"
+             "{'sampler':1,'target':{'node':1,'path':'rotation'}}]}]",
+             frequency, damping, along);
+    return write_built(&b, "sways.gltf", members);
+}
+
+/// x is the ODE's periodic answer, also if the bone travels, and the drive shows x alone. The clip's frames are all that it needs.
+TEST(flesh_answers_its_bone_and_closes)
+{
+    for (int travels = 0; travels < 2; travels++) {
+        struct opened opened;
+        assert_done(opened_read(&opened, write_swaying(travels ? 1.5f : 0), &error));
+        const struct document *document = opened.document;
+        assert_int_equal(document->spline_count, 1);
+        assert_int_equal(document->last_frame, 24);
+        opened_solve(&opened, SOLVER_BY_LENGTH);
+        const struct posing posing = opened_posing(&opened);
+        const wiggly_curve *curve = &posing.evaluation->curves[0];
+        const double w = 2 * M_PI, o = 2 * M_PI * frequency, size = along * sway * w * w;
+        const double complex answer = size / (o * o - w * w + 2 * I * damping * o * w); // to −g · a = size sin w t
+        double most = 0;
+        for (int s = 0; s <= 24; s++) {
+            wiggly_value values[RIG_MAX_INPUTS];
+            const double wanted = cimag(answer * cexp(I * w * s / 24));
+            assert_near(curve->re[s], wanted, 0.05 * cabs(answer));
+            posing_values(&posing, 0, s, NULL, values);
+            assert_near(values[0].y, 0, 0);
+            assert_near(values[0].re, curve->re[s], 1e-12);
+            most = fmax(most, fabs(curve->re[s] - wanted));
+        }
+        print_message("off by %.2g of the amplitude\n", most / cabs(answer));
+        assert_near(curve->re[24], curve->re[0], 1e-9);
+        assert_near(curve->y[24], curve->y[0], 1e-9);
+        opened_free(&opened);
+    }
+}
