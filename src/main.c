@@ -27,6 +27,7 @@ static const struct command {
      false},
     {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",
      "turns motions into a character that splines can drive", false},
+    {"flesh", command_flesh, "in.glb -o out.glb", "makes a skinned character soft on its own bones", false},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0], SUMMARY_AT = 33 };

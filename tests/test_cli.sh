@@ -40,7 +40,7 @@ usage <<END_OF_ROWS
 2|--hlep|unknown option --hlep (did you mean --help?)
 END_OF_ROWS
 expect 0 "--help-all" wiggly --help-all
-for command in live solve rig export check simulate analyze; do says "--help-all lists $command" "  $command " "$out"; done
+for command in live solve rig export check simulate analyze flesh; do says "--help-all lists $command" "  $command " "$out"; done
 tells 0 "--help lists export" "  export " wiggly --help
 holds "--help leaves out what few need" not grep -q "  solve " <<<"$out"
 holds "help is --help" [ "$out" = "$(wiggly help)" ]

@@ -32,7 +32,7 @@ if [[ " \$* " =~ ^\ export\ .*\.(mp4|webm|gif|png)\  ]]; then
 fi
 # The live app lasts until somebody quits it: ten small frames do, or 70 where a log is read. A simulation takes 10 s: a coarse, short one does.
 case \${1-live} in
-simulate) set -- "\$@" --tets 300 --seconds 2 --substeps 1 ;;
+simulate | flesh) set -- "\$@" --tets 300 --seconds 3 --substeps 1 ;;
 solve | rig | export | check | analyze | log | -*) ;;
 *)
     case " \$* " in

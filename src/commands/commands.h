@@ -13,6 +13,7 @@ int command_export(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_simulate(int argc, char **argv);
 int command_analyze(int argc, char **argv);
+int command_flesh(int argc, char **argv);
 
 // The command line of a subcommand, described by a table: parsing, help, and suggestions for misspelt words.
 

@@ -658,74 +658,6 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
     return true;
 }
 
-// --- the other container: all bytes in one buffer without an address, pictures too
-
-/// Lets a view, or an extension of one, find its bytes again. False if memory is short.
-static bool move_view(json_t *view, const size_t *starts, size_t count)
-{
-    const int64_t buffer = glb_integer(view, "buffer", -1), offset = glb_integer(view, "byteOffset", 0);
-    if (buffer < 0 || (size_t)buffer >= count || offset < 0) return true;
-    return json_object_set_new(view, "buffer", json_integer(0)) == 0 &&
-           (starts[buffer] == 0 ||
-            json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer])) == 0);
-}
-
-/// Puts all bytes that `source` refers to into one buffer.
-static bool gather(struct glb *source, struct gltf_file *file, struct error *error)
-{
-    static const struct {
-        const char *start, *kind;
-        size_t length;
-    } kinds[] = {{"\x89PNG", "image/png", 4}, {"\xFF\xD8", "image/jpeg", 2}, {"\xABKTX 20", "image/ktx2", 7}};
-    json_t *view, *extension, *image;
-    size_t i;
-    if (!glb_read_buffers(source, error)) return false;
-    const size_t count = json_array_size(json_object_get(source->json, "buffers"));
-    size_t *starts = calloc(count + 1, sizeof *starts);
-    bool done = starts;
-    for (size_t b = 0; done && b < count; b++) { // all there is: views may reach beyond the byteLength
-        const struct glb_bytes bytes = source->buffers[b].bytes;
-        starts[b] = gltf_file_append(file, bytes.at, bytes.size);
-    }
-    json_array_foreach(file->views, i, view)
-    {
-        const char *name;
-        done = done && move_view(view, starts, count);
-        json_object_foreach(json_object_get(view, "extensions"), name, extension) done =
-            done && move_view(extension, starts, count);
-    }
-    if (file->size > 0) json_object_del(source->json, "buffers");
-    free(starts);
-
-    json_array_foreach(json_object_get(source->json, "images"), i, image)
-    {
-        const char *uri = json_string_value(json_object_get(image, "uri"));
-        struct glb_buffer picture;
-        struct error why = {0};
-        if (!done || !uri) continue;
-        if (!glb_read_uri(source, uri, &picture, &why)) { // it keeps its address
-            done = why.kind != ERROR_ENVIRONMENT;
-            continue;
-        }
-        const struct glb_bytes bytes = picture.bytes;
-        const bool webp =
-            bytes.size >= 12 && memcmp(bytes.at, "RIFF", 4) == 0 && memcmp(bytes.at + 8, "WEBP", 4) == 0;
-        const char *kind = webp ? "image/webp" : NULL;
-        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-            if (bytes.size >= kinds[k].length && memcmp(bytes.at, kinds[k].start, kinds[k].length) == 0)
-                kind = kinds[k].kind;
-        }
-        if (kind) {
-            const json_int_t own = gltf_file_add_bytes(file, picture.bytes.at, picture.bytes.size);
-            gltf_set(file, image, "bufferView", json_integer(own));
-            gltf_set(file, image, "mimeType", json_string(kind));
-            json_object_del(image, "uri");
-        }
-        free(picture.owned);
-    }
-    return done || fail_no_memory(error, source->path);
-}
-
 // --- the same container
 
 /// A file that stays what it is must be beside the files that it names.
@@ -980,7 +912,7 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
         const bool has_chunk = source.chunk.at && first && !json_object_get(first, "uri");
         gltf_file_continue(&to, source.json);
         if (!is_same || (binary && !has_chunk)) {
-            done = gather(&source, &to, error);
+            done = gltf_file_gather(&to, &source, error);
         } else {
             if (has_chunk) gltf_file_append(&to, source.chunk.at, source.chunk.size);
             if (!has_chunk) to.buffer = (json_int_t)json_array_size(buffers);

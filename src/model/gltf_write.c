@@ -1,9 +1,11 @@
 /// Assembles glTF files: accessors and their bytes, meshes, materials and pictures.
 #include "model/gltf_write.h"
+#include "base/file.h"
 #include "base/json.h"
 #include "base/need.h"
 #include "base/npy.h"
 #include "model/adjacency.h"
+#include "model/glb.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -185,6 +187,73 @@ void gltf_file_free(struct gltf_file *file)
     *file = (struct gltf_file){0};
 }
 
+// --- all bytes in one buffer without an address
+
+/// Lets a view, or an extension of one, find its bytes again. False if memory is short.
+static bool move_view(json_t *view, const size_t *starts, size_t count)
+{
+    const int64_t buffer = glb_integer(view, "buffer", -1), offset = glb_integer(view, "byteOffset", 0);
+    if (buffer < 0 || (size_t)buffer >= count || offset < 0) return true;
+    return json_object_set_new(view, "buffer", json_integer(0)) == 0 &&
+           (starts[buffer] == 0 ||
+            json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer])) == 0);
+}
+
+bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *error)
+{
+    static const struct {
+        const char *start, *kind;
+        size_t length;
+    } known[] = {{"\x89PNG", "image/png", 4}, {"\xFF\xD8", "image/jpeg", 2}, {"\xABKTX 20", "image/ktx2", 7}};
+    json_t *view, *extension, *image;
+    size_t i;
+    if (!glb_read_buffers(source, error)) return false;
+    const size_t count = json_array_size(json_object_get(source->json, "buffers"));
+    size_t *starts = calloc(count + 1, sizeof *starts);
+    bool done = starts;
+    for (size_t b = 0; done && b < count; b++) { // all there is: views may reach beyond the byteLength
+        const struct glb_bytes bytes = source->buffers[b].bytes;
+        starts[b] = gltf_file_append(file, bytes.at, bytes.size);
+    }
+    json_array_foreach(file->views, i, view)
+    {
+        const char *name;
+        done = done && move_view(view, starts, count);
+        json_object_foreach(json_object_get(view, "extensions"), name, extension) done =
+            done && move_view(extension, starts, count);
+    }
+    if (file->size > 0) json_object_del(source->json, "buffers");
+    free(starts);
+
+    json_array_foreach(json_object_get(source->json, "images"), i, image)
+    {
+        const char *uri = json_string_value(json_object_get(image, "uri"));
+        struct glb_buffer picture;
+        struct error why = {0};
+        if (!done || !uri) continue;
+        if (!glb_read_uri(source, uri, &picture, &why)) { // it keeps its address
+            done = why.kind != ERROR_ENVIRONMENT;
+            continue;
+        }
+        const struct glb_bytes bytes = picture.bytes;
+        const bool webp =
+            bytes.size >= 12 && memcmp(bytes.at, "RIFF", 4) == 0 && memcmp(bytes.at + 8, "WEBP", 4) == 0;
+        const char *kind = webp ? "image/webp" : NULL;
+        for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+            if (bytes.size >= known[k].length && memcmp(bytes.at, known[k].start, known[k].length) == 0)
+                kind = known[k].kind;
+        }
+        if (kind) {
+            const json_int_t own = gltf_file_add_bytes(file, picture.bytes.at, picture.bytes.size);
+            gltf_set(file, image, "bufferView", json_integer(own));
+            gltf_set(file, image, "mimeType", json_string(kind));
+            json_object_del(image, "uri");
+        }
+        free(picture.owned);
+    }
+    return done || fail_no_memory(error, source->path);
+}
+
 struct gltf_picture {
     const unsigned char *bytes;
     size_t size;
@@ -283,6 +352,167 @@ static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *sh
     return primitives;
 }
 
+// --- coordinates
+
+json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *c, double scale)
+{
+    json_t *known = json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency, "damping",
+                              c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
+    if (c->bone) {
+        gltf_set(file, known, "base", json_pack("[f, f, f]", c->base[0], c->base[1], c->base[2]));
+        gltf_set(file, known, "bone", json_string(c->bone));
+    }
+    if (scale != 1) gltf_set(file, known, "scale", json_real(scale));
+    if (c->sq && isfinite(c->most)) gltf_set(file, known, "most", json_real(c->most));
+    return known;
+}
+
+/// Adds `count` zeros to each key of the weights that clips give a node.
+static bool widen_keys(struct gltf_file *file, struct glb *source, json_t *sampler, int targets, int count,
+                       struct error *error)
+{
+    struct glb_numbers keys;
+    const int64_t accessor = glb_integer(sampler, "output", -1);
+    if (!glb_numbers(source, accessor, &keys, error)) return false;
+    const size_t rows = targets > 0 ? (size_t)(keys.count / targets) : 0, width = (size_t)(targets + count);
+    float *wide = need_zeroed(rows * width + 1, sizeof *wide);
+    for (size_t n = 0; n < rows * (size_t)targets; n++)
+        wide[n / (size_t)targets * width + n % (size_t)targets] = (float)keys.values[n];
+    gltf_set(file, sampler, "output", json_integer(gltf_file_add(file, ELEMENTS_KEYS, wide, rows * width, false)));
+    free(wide);
+    free(keys.values);
+    return true;
+}
+
+/// Adds `count` zeros to an array of weights; makes one of `targets` if there is none.
+static void widen(struct gltf_file *file, json_t *object, int targets, int count)
+{
+    for (int t = (int)json_array_size(json_object_get(object, "weights")); t < targets + count; t++)
+        gltf_append_to(file, object, "weights", json_integer(0));
+}
+
+/// Adds the targets to a mesh, and says in its extras what they are.
+static void add_coordinates(struct gltf_file *file, json_t *json, const struct gltf_mesh *mesh,
+                            const struct coordinate *coordinates, int count)
+{
+    const json_t *accessors = file->accessors;
+    json_t *primitive, *first = NULL, *extras = json_object_get(json, "extras");
+    size_t p;
+    int part = 0, row = 0;
+    json_array_foreach(json_object_get(json, "primitives"), p, primitive)
+    {
+        const struct gltf_part *own = &mesh->parts[part];
+        const bool shows = part < mesh->part_count && own->primitive == (int)p, shared = shows && own->shared;
+        const json_t *position =
+            json_array_get(accessors, (size_t)glb_integer(json_object_get(primitive, "attributes"), "POSITION", -1));
+        const int64_t vertices = shows ? own->vertex_count : glb_integer(position, "count", 1);
+        json_t *targets = json_object_get(primitive, "targets");
+        json_int_t none = -1;
+        if (!targets) gltf_set(file, primitive, "targets", targets = json_array());
+        for (int t = (int)json_array_size(targets); t < mesh->target_count + 2 * count; t++) {
+            const int k = (t - mesh->target_count) / 2, im = (t - mesh->target_count) % 2;
+            json_int_t accessor;
+            if (shared && t >= mesh->target_count) { // so that readers see that they are the same
+                gltf_append(file, targets,
+                            json_deep_copy(json_array_get(json_object_get(first, "targets"), (size_t)t)));
+                continue;
+            }
+            if (t < mesh->target_count || !shows) { // an accessor without bytes is all zeros
+                static const float zero[3];
+                if (none < 0) {
+                    json_t *empty = json_pack("{s:i, s:I, s:s}", "componentType", NUMBER_FLOAT32, "count",
+                                              (json_int_t)vertices, "type", "VEC3");
+                    gltf_file_bound(file, empty, zero, 1, 3);
+                    none = gltf_append(file, file->accessors, empty);
+                }
+                accessor = none;
+            } else {
+                const float(*from)[3] = (const float(*)[3])(im ? coordinates[k].im : coordinates[k].re) + row;
+                float(*turned)[3] = need((size_t)vertices, sizeof *turned);
+                for (int64_t n = 0; n < 3 * vertices; n++)
+                    turned[n / 3][n % 3] = im ? -from[n / 3][n % 3] : from[n / 3][n % 3];
+                accessor = gltf_file_add(file, ELEMENTS_VECTORS, turned, (size_t)vertices, true);
+                free(turned);
+            }
+            gltf_append(file, targets, json_pack("{s:I}", "POSITION", accessor));
+        }
+        if (!shows) continue;
+        if (!shared) first = primitive;
+        row += own->vertex_count;
+        part++;
+    }
+
+    if (!json_is_object(extras)) gltf_set(file, json, "extras", extras = json_object());
+    json_t *known = json_object_get(extras, "wiggly"), *names = json_object_get(extras, "targetNames");
+    if (!json_is_object(known)) gltf_set(file, extras, "wiggly", known = json_object());
+    if (!json_is_array(names)) gltf_set(file, extras, "targetNames", names = json_array());
+    for (int t = (int)json_array_size(names); t < mesh->target_count; t++) {
+        const char *name = gltf_target_name(mesh, t);
+        gltf_append(file, names, name ? json_string(name) : json_sprintf("target %d", t));
+    }
+    for (int k = 0; k < count; k++) {
+        gltf_append(file, names, json_sprintf("%s.re", coordinates[k].name));
+        gltf_append(file, names, json_sprintf("%s.im", coordinates[k].name));
+        gltf_append_to(file, known, "coordinates", gltf_coordinate_json(file, &coordinates[k], 1));
+    }
+    widen(file, json, mesh->target_count, 2 * count);
+}
+
+bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, const struct coordinate *coordinates,
+                       int count, struct error *error)
+{
+    const int targets = gltf->meshes[mesh].target_count;
+    struct gltf_file file = {0};
+    struct glb source;
+    struct file_output out;
+    struct error why;
+    json_t *clip, *channel, *node;
+    size_t i, c;
+    if (!glb_open(&source, gltf->path, error)) return false;
+    gltf_file_continue(&file, source.json);
+    bool done = gltf_file_gather(&file, &source, error);
+    json_t *nodes = json_object_get(source.json, "nodes");
+    json_array_foreach(nodes, i, node)
+    {
+        if (glb_integer(node, "mesh", -1) == mesh && json_object_get(node, "weights"))
+            widen(&file, node, targets, 2 * count);
+    }
+    json_array_foreach(json_object_get(source.json, "animations"), i, clip)
+    {
+        json_t *samplers = json_object_get(clip, "samplers");
+        bool *widened = need_zeroed(json_array_size(samplers) + 1, sizeof *widened);
+        json_array_foreach(json_object_get(clip, "channels"), c, channel)
+        {
+            const json_t *target = json_object_get(channel, "target");
+            const char *moves = json_string_value(json_object_get(target, "path"));
+            const size_t sampler = (size_t)glb_integer(channel, "sampler", -1);
+            node = json_array_get(nodes, (size_t)glb_integer(target, "node", -1));
+            if (!done || !moves || strcmp(moves, "weights") != 0 || glb_integer(node, "mesh", -1) != mesh ||
+                sampler >= json_array_size(samplers) || widened[sampler])
+                continue;
+            widened[sampler] = true;
+            done = widen_keys(&file, &source, json_array_get(samplers, sampler), targets, 2 * count, error);
+        }
+        free(widened);
+    }
+    if (done) {
+        json_t *json = json_array_get(json_object_get(source.json, "meshes"), (size_t)mesh);
+        add_coordinates(&file, json, &gltf->meshes[mesh], coordinates, count);
+        done = file_output_open(&out, path, error);
+    }
+    if (done) {
+        done = gltf_file_write(&file, json_incref(source.json), true, out.stream, &why) ||
+               fail(error, why.kind, "%s: %s", path, why.text);
+        if (done)
+            done = file_output_commit(&out, error);
+        else
+            file_output_discard(&out);
+    }
+    gltf_file_free(&file);
+    glb_close(&source);
+    return done;
+}
+
 // --- vertices
 
 /// A copy of vectors for the file's vertices, times `scale`, within [lowest, highest].
@@ -359,14 +589,8 @@ json_t *gltf_shape_json(struct gltf_looks *l, const struct gltf_shape *shape)
             gltf_append(l->file, names, json_string(shape->targets[t].name));
         for (int i = 0, first = 0; shape->character && i < shape->character->coordinate_count; i++) {
             const struct coordinate *c = &shape->character->coordinates[i];
-            json_t *known =
-                json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency, "damping",
-                          c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
-            const double scale = (double)shape->targets[first].scale;
+            gltf_append(l->file, coordinates, gltf_coordinate_json(l->file, c, (double)shape->targets[first].scale));
             first += coordinate_parts(c);
-            if (scale != 1) gltf_set(l->file, known, "scale", json_real(scale));
-            if (c->sq && isfinite(c->most)) gltf_set(l->file, known, "most", json_real(c->most));
-            gltf_append(l->file, coordinates, known);
         }
         gltf_set(l->file, mesh, "extras",
                  json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates));

@@ -8,6 +8,8 @@
 #include <jansson.h>
 #include <stdio.h>
 
+struct glb;
+
 /// A .glb begins with the first; the others are the types of its chunks.
 enum {
     GLB_MAGIC = 0x46546C67, ///< "glTF"
@@ -41,6 +43,10 @@ enum gltf_elements {
 /// Continues the JSON of an existing file: additions follow what it has.
 void gltf_file_continue(struct gltf_file *file, json_t *root);
 
+/// Puts all bytes that the JSON refers to, pictures too, into the file's one buffer, after gltf_file_continue(). Decompresses meshes. Errors: a
+/// buffer that cannot be read; pictures that cannot keep their address.
+bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *error);
+
 /// Adds bytes that views refer to already, padded to a multiple of four; returns their offset.
 size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size);
 
@@ -70,6 +76,9 @@ void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, jso
 /// False with a sentence if it cannot be made; the stream's errors are the caller's.
 bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error);
 void gltf_file_free(struct gltf_file *file);
+
+/// What the extras of a mesh say of a coordinate whose targets are scaled up.
+json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *coordinate, double scale);
 
 // --- meshes, their materials and pictures
 //

@@ -18,7 +18,8 @@ static const char pc2_magic[12] = "POINTCACHE2"; ///< first bytes of a PC2 file
 /// Reads exactly `count` bytes at `offset`; a shorter file is an error.
 static bool read_at(const struct motion *m, int64_t offset, void *bytes, size_t count, struct error *error)
 {
-    for (size_t done = 0; done < count;) {
+    if (m->memory) memcpy(bytes, m->memory + offset, count);
+    for (size_t done = m->memory ? count : 0; done < count;) {
         ssize_t got = pread(m->file, (char *)bytes + done, count - done, offset + (int64_t)done);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return fail(error, ERROR_INPUT, "%s: cannot be read: %s", m->path, strerror(errno));
@@ -147,6 +148,13 @@ bool motion_open(struct motion *motion, const char *path, struct error *error)
     }
     if (!done) motion_close(motion);
     return done;
+}
+
+struct motion motion_of_memory(const float (*positions)[3], int frames, int vertices, double fps, const char *name)
+{
+    struct motion m = {frames, vertices, fps, name, .file = -1, .memory = (const char *)positions, .number_size = 4};
+    set_layout(&m, INT64_MAX, NULL);
+    return m;
 }
 
 void motion_close(struct motion *motion)

@@ -13,6 +13,7 @@ struct motion {
     const char *path; ///< the caller's, for messages
     // private
     int file;
+    const char *memory; ///< NULL: a file's
     int64_t data;       ///< where the numbers start
     int number_size;    ///< 4 or 8 bytes
     bool swapped;       ///< big endian
@@ -24,6 +25,9 @@ struct motion {
 /// shape (frames, vertices, 3) or (frames, 3 vertices). The format is recognised by content; `path` must outlive the motion.
 /// Errors name the path and say what was expected.
 bool motion_open(struct motion *motion, const char *path, struct error *error);
+
+/// A motion in memory, frame after frame, which must outlive it. `name` is for messages.
+struct motion motion_of_memory(const float (*positions)[3], int frames, int vertices, double fps, const char *name);
 
 /// Reads columns [first, first + count) of all frames: slab[frame · count + column − first]. A number that is not finite is
 /// an error that names frame and vertex, both from 0. Uses pread, not mmap: only the

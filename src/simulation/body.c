@@ -441,7 +441,14 @@ bool body_create(struct body *body, const struct body_mesh *mesh, struct materia
 
 void body_ready(struct body *body)
 {
-    for (int e = 0; e < body->element_count; e++) {
+    int kept = 0;
+    for (int e = 0; e < body->element_count; e++) { // one whose nodes are all pinned never does anything
+        const int *node = body->elements[e].node;
+        if (!body->pinned[node[0]] || !body->pinned[node[1]] || !body->pinned[node[2]] || !body->pinned[node[3]])
+            body->elements[kept++] = body->elements[e];
+    }
+    body->element_count = kept;
+    for (int e = 0; e < kept; e++) {
         const int *node = body->elements[e].node;
         for (int k = 0; k < 16; k++) {
             int row = node[k / 4], column = node[k % 4];

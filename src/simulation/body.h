@@ -143,7 +143,7 @@ struct body_mesh {
 /// Density in kg/m³. False where an element is flat.
 bool body_create(struct body *body, const struct body_mesh *mesh, struct material material, double density);
 
-/// Once nodes are pinned, before anything below.
+/// Once nodes are pinned and elements have their stiffness, before anything below. Drops the elements between pinned nodes.
 void body_ready(struct body *body);
 
 /// The forces at the positions x (N; 0 at pinned nodes); returns the energy (J).

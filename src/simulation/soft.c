@@ -62,6 +62,20 @@ static bool has_color(const struct region *region, const float linear[3])
     return true;
 }
 
+double region_distance(const struct region *region, const double point[3])
+{
+    double least = INFINITY;
+    for (int n = 0; n < region->line_count; n++) {
+        const double *from = region->line[n][0], *to = region->line[n][1];
+        double along[3], away[3];
+        for (int c = 0; c < 3; c++) along[c] = to[c] - from[c], away[c] = point[c] - from[c];
+        const double length = vec3_dot(along, along), at = length > 0 ? vec3_dot(along, away) / length : 0;
+        for (int c = 0; c < 3; c++) away[c] -= fmin(fmax(at, 0), 1) * along[c];
+        least = fmin(least, vec3_length(away));
+    }
+    return least;
+}
+
 /// Whether points are in a region other than a colour's. `lowest`: a foot of the usual height is at least as high.
 static void mark_points(const struct region *region, const struct surface *surface, double lowest,
                         const double (*point)[3], int count, bool *inside)
@@ -81,6 +95,7 @@ static void mark_points(const struct region *region, const struct surface *surfa
         }
         if (region->kind == REGION_FOOT) inside[i] = point[i][1] <= top + rounding;
         if (region->kind == REGION_PLANE) inside[i] = ahead <= 0;
+        if (region->kind == REGION_BONES) inside[i] = region_distance(region, point[i]) <= region->size;
         if (region->kind == REGION_SPHERE) inside[i] = squared <= region->size * region->size;
     }
 }
@@ -93,6 +108,7 @@ int region_vertices(const struct region *region, const struct surface *surface, 
     mark_points(region, surface, -INFINITY, (const double(*)[3])point, surface->vertex_count, inside);
     for (int i = 0; i < surface->vertex_count; i++) {
         if (region->kind == REGION_COLOR) inside[i] = surface->color && has_color(region, surface->color[i]);
+        if (region->kind == REGION_BONES) inside[i] |= region->held[i] > 0.5;
         found += inside[i];
     }
     free(point);
@@ -190,47 +206,65 @@ struct soft_options soft_default_options(void)
                                  .modes = 1};
 }
 
+static const double line_reach = 0.6; ///< cells: a line passes no farther from some node of the lattice
+
 static bool pin_nodes(struct soft *soft, const struct surface *surface, const struct region *region, const char *name,
                       struct error *error)
 {
     const int most = soft->body.node_count > surface->vertex_count ? soft->body.node_count : surface->vertex_count;
     bool *inside = need_zeroed((size_t)most + 1, sizeof *inside);
     const struct lattice *lattice = &soft->lattice;
+    const bool colored = region->kind == REGION_COLOR, bones = region->kind == REGION_BONES;
+    struct region widened = *region;
     bool good = true;
-    if (region->kind == REGION_COLOR) {
+    soft->depth = widened.size = bones ? fmax(region->size, line_reach * lattice->cell) : region->size;
+    region = &widened;
+    if (!colored) {
+        double lowest = INFINITY; // if the feet are thinner than a cell
+        for (int i = 0; i < lattice->node_count; i++) lowest = fmin(lowest, lattice->node[i][1]);
+        mark_points(region, surface, lowest, (const double(*)[3])lattice->node, lattice->node_count, inside);
+    }
+    if (colored || bones) {
         double *vertex = need_zeroed((size_t)surface->vertex_count + 1, sizeof *vertex);
         double *node = need_zeroed((size_t)lattice->node_count + 1, sizeof *node);
-        int found = 0;
-        for (int i = 0; surface->color && i < surface->vertex_count; i++) {
-            vertex[i] = has_color(region, surface->color[i]);
+        int found = bones;
+        for (int i = 0; i < surface->vertex_count; i++) {
+            vertex[i] = bones ? region->held[i] : surface->color && has_color(region, surface->color[i]);
             found += vertex[i] > 0;
         }
         lattice_spread(lattice, vertex, node);
-        for (int i = 0; i < lattice->node_count; i++) inside[i] = node[i] > 0.5;
+        for (int i = 0; i < lattice->node_count; i++) inside[i] |= node[i] > 0.5;
         free(vertex);
         free(node);
         if (found == 0)
             good = fail(error, ERROR_INPUT, "%s: no vertex has the colour %06X of --pin", name, region->color);
-    } else {
-        double lowest = INFINITY; // if the feet are thinner than a cell
-        for (int i = 0; i < lattice->node_count; i++) lowest = fmin(lowest, lattice->node[i][1]);
-        mark_points(region, surface, lowest, (const double(*)[3])lattice->node, lattice->node_count, inside);
     }
     for (int i = 0; good && i < soft->body.node_count; i++) {
         if (!inside[i]) continue;
         soft->body.pinned[i] = true;
         soft->pinned++;
     }
+    bool *held = need_zeroed((size_t)lattice->part_count + 1, sizeof *held);
+    for (int n = 0; n < 4 * lattice->tet_count; n++)
+        held[lattice->part[n / 4]] |= soft->body.pinned[lattice->tet[n / 4][n % 4]];
+    for (int p = 0; p < lattice->part_count; p++) soft->unpinned_parts += !held[p];
+    for (int n = 0; bones && soft->pinned > 0 && n < 4 * lattice->tet_count; n++)
+        if (!held[lattice->part[n / 4]]) soft->body.pinned[lattice->tet[n / 4][n % 4]] = true;
+    free(held);
     const bool whole = region_vertices(region, surface, inside) == surface->vertex_count; // a flag that lies
     free(inside);
     if (!good) return false;
+    if (bones && (whole || soft->pinned == soft->body.node_count))
+        return fail(
+            error, ERROR_INPUT,
+            "%s: nothing can move: all of it is within %.3g m of a bone: try a smaller --depth, or more --tets", name,
+            soft->depth);
     if (whole || soft->pinned == soft->body.node_count)
         return fail(error, ERROR_INPUT, "%s: nothing can move: all of it is in the region of --pin", name);
     if (soft->pinned == 0 && region->kind != REGION_NONE)
         return fail(error, ERROR_INPUT,
-                    "%s: the region of --pin holds nothing: it is off the mesh or smaller than a cell of %.3g m",
-                    name, lattice->cell);
-    body_ready(&soft->body);
+                    "%s: the region of %s holds nothing: it is off the mesh or smaller than a cell of %.3g m", name,
+                    bones ? "--depth" : "--pin", lattice->cell);
     return true;
 }
 
@@ -296,13 +330,7 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
         return false;
     }
 
-    bool *part_held = need_zeroed((size_t)lattice->part_count + 1, sizeof *part_held);
-    for (int e = 0; e < lattice->tet_count; e++) {
-        for (int a = 0; a < 4; a++) part_held[lattice->part[e]] |= body->pinned[lattice->tet[e][a]];
-    }
-    for (int p = 0; p < lattice->part_count; p++) soft->unpinned_parts += !part_held[p];
-    free(part_held);
-
+    body_ready(body);
     static const int order[] = {1, 0, 2, 1}; // y again if none is long enough
     const double long_enough = 0.1 * fmax(hi[0] - lo[0], fmax(hi[1] - lo[1], hi[2] - lo[2]));
     for (int k = 0; k < 4; k++) {
@@ -326,12 +354,13 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
         for (int k = 0; k < soft->modes.count; k++) {
             const double(*shape)[3] = (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)body->node_count);
             const double omega = soft->modes.frequency[k];
-            double overlap = 0; // Σ m φ·u: how far the shake moves the mode; a push, 1 / ω as far
+            double moved[3] = {0}; // Σ m φ u: how far the shake moves the mode; a push, 1 / ω as far
             for (int i = 0; i < body->node_count; i++) {
-                double along = 0;
-                for (int c = 0; c < 3; c++) along += shape[i][c] * options->shake->direction[c];
-                overlap += body->mass[i] * shaken_part(soft, options->shake, pinned, i) * along;
+                const double part = body->mass[i] * shaken_part(soft, options->shake, pinned, i);
+                for (int c = 0; c < 3; c++) moved[c] += part * shape[i][c];
             }
+            const double *along = options->shake->direction;
+            const double overlap = vec3_dot(along, along) > 0 ? vec3_dot(moved, along) : vec3_length(moved);
             const double amplitude = options->shake->impulse ? overlap / omega : overlap;
             double power = 0; // Σ |φ|² over the surface's vertices; those without triangles stay at 0
             lattice_embed(&soft->lattice, shape, vertex);

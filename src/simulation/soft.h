@@ -15,13 +15,20 @@ enum region_kind {
     REGION_PLANE,  ///< behind the plane through `point`, on the side opposite to `normal`
     REGION_SPHERE, ///< within `size` of `point`
     REGION_COLOR,  ///< around vertices of this colour
+    REGION_BONES,  ///< within `size` of a line, where the mesh is mostly held, and parts that nothing else holds
 };
 
 struct region {
     enum region_kind kind;
     double point[3], normal[3], size; ///< m
     uint32_t color;                   ///< 0xRRGGBB, sRGB
+    const double (*line)[2][3];       ///< of REGION_BONES: both ends, m
+    int line_count;
+    const double *held; ///< of REGION_BONES: a share of 0 … 1 per vertex
 };
+
+/// The distance of a point from the nearest of the region's lines, m.
+double region_distance(const struct region *region, const double point[3]);
 
 /// What region_parse() takes, for error texts.
 #define REGION_FORMS "a height, none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r or color:RRGGBB"
@@ -51,7 +58,7 @@ bool softness_apply(const struct softness *softness, const struct lattice *latti
 
 /// How a body is moved.
 struct shake {
-    double direction[3]; ///< of length 1
+    double direction[3]; ///< of length 1; zero: along all three axes, one after another
     double amplitude;    ///< how far the top moves, or the base, as a fraction of soft.size
     bool impulse; ///< starts undeformed, with the velocity that reaches the amplitude; else deformed and at rest
     bool driven;  ///< starts undeformed and at rest: the base moves
@@ -85,6 +92,7 @@ struct soft {
     double young;          ///< Pa
     double alpha, beta;    ///< Rayleigh's coefficients, 1/s and s
     int pinned;            ///< nodes
+    double depth;          ///< of REGION_BONES: of what is held around the lines, m; at least about half a cell
     int unpinned_parts;    ///< parts of the lattice without a pinned node
 };
 

@@ -16,9 +16,9 @@ enum { LINE = 4096 };
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} commands[] = {{"live", command_live},      {"solve", command_solve}, {"rig", command_rig},
-                {"export", command_export},  {"check", command_check}, {"simulate", command_simulate},
-                {"analyze", command_analyze}};
+} commands[] = {{"live", command_live},       {"solve", command_solve}, {"rig", command_rig},
+                {"export", command_export},   {"check", command_check}, {"simulate", command_simulate},
+                {"analyze", command_analyze}, {"flesh", command_flesh}};
 
 /// What the last child has said.
 static struct {
@@ -294,6 +294,10 @@ static const struct {
     {"export --substeps", "0", "1", "1024", "1025"},
     {"export --size", "15x16", "16x16", "8192x8192", "8193x16"},
     {"export --loops", "0", "1", "10000", "10001"},
+    {"flesh --depth", "-0.1", "0", "1000000", "1000001"},
+    {"flesh --amplitude", "-2.01", "-2", "2", "2.01"},
+    {"flesh --modes", "0", "1", "8", "9"},
+    {"flesh --fps", "0.99", "1", "1000", "1000.1"},
     {"rig --frequency", "0.00099", "0.001", "1000", "1000.1"},
     {"rig --damping", "0", "0.000001", "1", "1.00001"},
     {"analyze --fps", "0.00099", "0.001", "100000", "100000.1"},
@@ -493,6 +497,19 @@ static const struct {
     {2, "rig dog.glb --chain tail_1 --all-clips -o x.json", "--all-clips"},
     {2, "rig dog.glb --chain tail_1 --all-clips -o x.usda", "x.usda: holds one clip: all clips need .glb or .gltf"},
     {3, "rig dog.glb --chain tail_1 -o no/x.json", "no/x.json: cannot be written"},
+    // flesh
+    {1, "flesh dog.glb --part tial_1 -o x.glb",
+     "dog.glb: expected a bone for --part, got \"tial_1\" (did you mean \"tail_1\"?)"},
+    {1, "flesh assets/models/creature.glb -o x.glb", "creature.glb: expected a mesh with a skin, got none"},
+    {1, "flesh none.glb -o x.glb", "none.glb"},
+    {1, "flesh dog.glb --depth 9 -o x.glb", "nothing can move: all of it is within 9 m of a bone"},
+    {1, "flesh dog.glb --part tail_1 --tets 50 --seconds 0.5 -o x.glb",
+     "do not fit into 0.5 s: choose a longer time"},
+    {2, "flesh dog.glb", "-o FILE is missing"},
+    {2, "flesh dog.glb -o x.obj", "--output: expected a name ending in .glb"},
+    {2, "flesh dog.glb -o dog.glb", "dog.glb: "},
+    {2, "flesh dog.glb --young 1e6 --frequency 2 -o x.glb", "--young and --frequency both set the stiffness"},
+    {0, "flesh dog.glb --tets 500 --substeps 1 --modes 1 -o y.glb", "  held within 0.|m of the bones (--depth)"},
     // simulate
     {2, "simulate box.obj --pin round -o x.npy", "--pin: expected a height, none, plane:"},
     {1, "simulate box.obj --soft paper -o x.npy", "paper: cannot be opened"},
