@@ -310,7 +310,7 @@ enum { PARTS = 3 }; ///< |R|², Re R² and −Im R²
 static const double ridge = 0.01;
 static const double least_curve = 1e-3;  ///< share of the motion's power that a component's curves must explain
 static const double least_part = 0.6;    ///< of what is left, times its error: the more is left, the stricter
-static const double most_curve = 0.1;    ///< of what the component itself explains: more is the motion of others
+static const double most_curve = 0.05;   ///< times explained / not explained by the component: more is others' motion
 static const double more_than_noise = 2; ///< times what they would explain if that were noise
 
 /// x ← x − Σ (along_i·x) rows_i
@@ -375,8 +375,8 @@ static void find_curves(struct analysis *a, struct work *w, double *middle)
         }
         const double gain = basis_gain(&basis, PARTS, gram);
         const double part = fmax(least_part * a->left, more_than_noise * PARTS / frames) * a->left * a->left;
-        const bool is_curved =
-            gain > fmax(least_curve, part) * w->power && gain < most_curve * c->explained * w->power;
+        const bool is_own = gain * (1 - c->explained) < most_curve * c->explained * w->power;
+        const bool is_curved = is_own && gain > fmax(least_curve, part) * w->power;
         basis.count -= is_curved ? 0 : PARTS;
         c->lift = is_curved ? pool_take(&a->pool, (size_t)c->vertices, sizeof *c->lift) : NULL;
         c->bend = is_curved ? pool_take(&a->pool, (size_t)c->vertices, sizeof *c->bend) : NULL;
@@ -525,7 +525,7 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     if (motion->frames - plan->first < ANALYSIS_FRAMES_MIN)
         return fail(error, ERROR_INPUT, "%s: expected %d frames or more after the drive stops, got %d", motion->path,
                     ANALYSIS_FRAMES_MIN, motion->frames > plan->first ? motion->frames - plan->first : 0);
-    const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 7; // per pair of frames
+    const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // per pair of frames
     if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);
     a->middle = pool_take(&a->pool, (size_t)motion->vertices, sizeof *a->middle);
     work.gram = pool_take(&work.pool, n * n, sizeof *work.gram);

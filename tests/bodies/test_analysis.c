@@ -637,9 +637,9 @@ TEST(what_swings_on_an_arc_is_curved)
         double degrees, damping, noise, straight, left; ///< errors: at least, at most
         bool is_straight;                               ///< as asked for
     } rows[] = {
-        {50, 0.03, 0, 0.2, 0.03, false},    {50, 0.05, 0, 0.2, 0.035, false}, {30, 0.03, 0, 0.1, 0.015, false},
-        {50, 0.03, 0.01, 0.2, 0.08, false}, {50, 0.03, 0, 0.2, 0.21, true},   {5, 0.03, 0, 0, 0.03, false},
-        {10, 0.03, 0.1, 0, 1, false},
+        {50, 0.03, 0, 0.2, 0.03, false},  {50, 0.05, 0, 0.2, 0.035, false},   {30, 0.03, 0, 0.1, 0.015, false},
+        {70, 0.03, 0, 0.25, 0.05, false}, {50, 0.03, 0.01, 0.2, 0.08, false}, {50, 0.03, 0, 0.2, 0.21, true},
+        {5, 0.03, 0, 0, 0.03, false},     {10, 0.03, 0.1, 0, 1, false},
     };
     for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {
         struct rod r = {rows[row].degrees * M_PI / 180, rows[row].damping, rows[row].noise, 3};
