@@ -254,9 +254,9 @@ static double finer(const struct flesh *f)
 
 struct swing {
     double frequency, damping, power;
-    bool seen[3];                  ///< in the shake along each axis
-    double complex *answer;        ///< u, per frame
-    double complex (*shape[3])[3]; ///< N of each axis
+    bool seen[3];             ///< in the shake along each axis
+    double complex *answer;   ///< u, per frame
+    double complex *shape[3]; ///< N of each axis
 };
 
 /// A coordinate before it is chosen.
@@ -390,7 +390,7 @@ static bool find_poles(struct shakes *s, const struct shaking *by, struct error 
 static double complex shape_of(const struct shakes *s, const struct candidate *c, size_t number)
 {
     double complex sum = 0;
-    for (int axis = 0; axis < 3; axis++) sum += c->direction[axis] * (*s->swings[c->pole].shape[axis])[number];
+    for (int axis = 0; axis < 3; axis++) sum += c->direction[axis] * s->swings[c->pole].shape[axis][number];
     return sum;
 }
 
@@ -422,7 +422,7 @@ static void find_coordinates(struct shakes *s, const struct shaking *by)
         s->swings[p].answer = pool_take(&s->pool, frames, sizeof *s->swings[p].answer);
         answer(&s->swings[p], &by->drive, s->frames, by->fps);
         for (int axis = 0; axis < 3; axis++)
-            s->swings[p].shape[axis] = pool_take(&s->pool, (size_t)s->vertices, sizeof **s->swings[p].shape);
+            s->swings[p].shape[axis] = pool_take(&s->pool, numbers, sizeof **s->swings[p].shape);
     }
     for (int axis = 0; axis < 3; axis++) {
         const float *at = *s->motion[axis];
@@ -438,7 +438,7 @@ static void find_coordinates(struct shakes *s, const struct shaking *by)
         for (int p = 0, used = 0; p < s->swing_count; p++) {
             if (!s->swings[p].seen[axis]) continue;
             const double *re = weights + (size_t)used * frames, *im = re + frames;
-            double complex *shape = *s->swings[p].shape[axis];
+            double complex *shape = s->swings[p].shape[axis];
             for (size_t t = 0; t < frames; t++)
                 for (size_t n = 0; n < numbers; n++)
                     shape[n] += (re[t] + I * im[t]) * ((double)at[t * numbers + n] - (double)at[n]);
@@ -451,7 +451,7 @@ static void find_coordinates(struct shakes *s, const struct shaking *by)
     for (int p = 0; p < s->swing_count; p++) {
         double moment[9], values[3], vectors[9], largest = 0;
         for (int n = 0; n < 9; n++) {
-            const double complex *a = *s->swings[p].shape[n / 3], *b = *s->swings[p].shape[n % 3];
+            const double complex *a = s->swings[p].shape[n / 3], *b = s->swings[p].shape[n % 3];
             moment[n] = 0;
             for (size_t k = 0; k < numbers; k++) moment[n] += creal(a[k] * conj(b[k]));
         }
@@ -460,7 +460,7 @@ static void find_coordinates(struct shakes *s, const struct shaking *by)
         for (size_t t = 0; largest > 0 && t < frames; t++)
             s->swings[p].answer[t] /= largest; // max |x| = 1 in a shake along e
         for (int axis = 0; axis < 3; axis++)
-            for (size_t k = 0; k < numbers; k++) (*s->swings[p].shape[axis])[k] *= largest;
+            for (size_t k = 0; k < numbers; k++) s->swings[p].shape[axis][k] *= largest;
         for (int e = 0; e < 3; e++) {
             struct candidate *to = &s->candidates[s->count];
             const double *v = vectors + 3 * e;
