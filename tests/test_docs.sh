@@ -251,7 +251,7 @@ docs/scene-format.md~the slope holds (1000)~src/scene/document.h~KNOT_DEFAULT_ST
 docs/scene-format.md~joints 24, length 1.6, position [0, 0, 0], rest 0~saved~"joints": 24, "length": 1.6, "position": [0, 0, 0], "rest": 0,
 docs/scene-format.md~axis "side", lag 6.5 and gain 5~saved~"axis": "side", "lag": 6.5, "gain": 5
 docs/scene-format.md~2 to 32 places~src/scene/rig.h~RAMP_MAX_POINTS = 32, ///< and at least 2
-docs/scene-format.md~Up to four coordinates~src/scene/rig.h~CHARACTER_MAX_DRIVES = 4
+docs/scene-format.md~Up to four coordinates~src/scene/rig.h~MODEL_MAX_DRIVES = 4
 docs/mathematics.md~at most 1e−9 (cubic) or 1e−8 (other modes)~tests/spline/test_vectors.c~WIGGLY_CUBIC ? 1e-9 : 1e-8
 docs/mathematics.md~exceeds 10⁴ times~src/spline/complete.c~blow_up = 1e4
 docs/mathematics.md~again with c = 0.05~src/spline/problem.h~FALLBACK_CALM 0.05

@@ -119,6 +119,13 @@ row accent.png assets/scenes/tail.json 300x225+85+15 98 104 110 116 2 8 14 20
 row accent-whole.png "$scratch/whole.json" 300x225+85+15 98 104 110 116 2 8 14 20
 picture figure7.png 60 assets/scenes/figure7.json
 
+# A dog that is soft on its bones, in its walk two and a half times as much as it is; and when each part of it swings.
+"$wiggly" flesh assets/models/dog.glb -o "$scratch/soft.glb" --scene "$scratch/soft.json" --tets 1000 --substeps 3 >"$scratch/log"
+sed 's/"amplitude": 1,/"amplitude": 2.5,/' "$scratch/soft.json" >"$scratch/softer.json"
+row flesh.png "$scratch/softer.json" 300x300+90+10 2 8 14 20
+sed 's/"clip": "Walk",/"clip": "Walk", "phases": "y",/' "$scratch/soft.json" >"$scratch/phases.json"
+row flesh-phases.png "$scratch/phases.json" 300x300+90+10 8
+
 # docs/blender.md, with a Python that has bpy.
 if [ -n "${BPY:-}" ]; then
     PYTHONPATH=python/src WIGGLY_LIBRARY=$(ls "$PWD/$(dirname "$wiggly")"/libwiggly.so.* | head -n 1) \

@@ -958,7 +958,7 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     gltf_file_free(&to);
     glb_close(&source);
     if (has_clip) {
-        char bones[32] = "", targets[32] = "";
+        char bones[48] = "", targets[48] = "";
         if (form.joint_count > 0) snprintf(bones, sizeof bones, "%d bones bent by chains", form.joint_count);
         if (body->soft >= 0)
             snprintf(targets, sizeof targets, "%s%d morph targets", bones[0] ? ", " : "", form.target_count);
