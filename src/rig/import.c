@@ -135,8 +135,7 @@ static bool hang_flesh(struct document *document, const struct character *soft, 
                                       .by_file = !changed.name,
                                       .joint = coordinate->bone,
                                       .of = MOTION_BASE,
-                                      .gain = 1,
-                                      .coordinate = coordinate->name};
+                                      .gain = 1};
         const struct param equilibrium = {.track = -1, .motion = &motion};
         done = edit_spline_add(document, -1, coordinate->name, NULL, error) &&
                edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error) &&

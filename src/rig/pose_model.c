@@ -229,7 +229,7 @@ static void sum_twice(double *samples, int count, bool loop)
 }
 
 bool clip_follow(const void *context, const struct document *document, const struct joint_motion *motion,
-                 double *samples)
+                 const char *coordinate, double *samples)
 {
     const struct models *models = context;
     const int rig = document_find_model(document, motion->model, motion->by_file);
@@ -255,7 +255,7 @@ bool clip_follow(const void *context, const struct document *document, const str
                                 .scale = model->scale};
     if (clip >= 0) followed.play = clip_play(model, &imported->gltf.clips[clip]);
     if (followed.node < 0) return false;
-    const int soft = motion->coordinate ? figure_find(&imported->figure, motion->coordinate) : -1;
+    const int soft = coordinate ? figure_find(&imported->figure, coordinate) : -1;
     if (motion->of == MOTION_BASE && (soft < 0 || clip < 0)) { // nothing moves it
         memset(samples, 0, (size_t)document_samples(document) * sizeof *samples);
         return true;

@@ -137,7 +137,7 @@ extern const struct pinning_functions model_pinning;
 /// Like model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
 bool clip_follow(const void *context, const struct document *document, const struct joint_motion *motion,
-                 double *samples);
+                 const char *coordinate, double *samples);
 
 /// Adds the effect of a channel's spline on a point that a bend of joint n moves along `way`, metres per radian.
 void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c);

@@ -942,17 +942,20 @@ static void motions_bake(struct evaluation *evaluation, const struct document *d
         uint64_t key = hash_text(HASH_START, motion->joint);
         key = hash_word(hash_number(key, document->fps), (uint64_t)document->substeps);
         key = hash_word(hash_word(key, (uint64_t)document->first_frame), (uint64_t)document->last_frame);
-        key = hash_text(hash_word(key, (uint64_t)motion->of), motion->coordinate);
+        const struct model_rig *of = model >= 0 ? &document->rigs[model]->model : NULL;
+        const char *coordinate = NULL; // the first that it drives
+        for (int d = of ? of->drive_count - 1 : -1; d >= 0; d--)
+            coordinate = of->drives[d].spline == s ? of->drives[d].name : coordinate;
+        key = hash_text(hash_word(key, (uint64_t)motion->of), coordinate);
         key = hash_word(hash_word(key, source->follow ? 1 : 0), source->version);
-        if (model >= 0) {
-            const struct model_rig *of = &document->rigs[model]->model;
+        if (of) {
             key = hash_text(hash_text(key, of->model), of->clip);
             key = hash_number(hash_number(key, of->scale), of->turn);
         }
         if (chain >= 0) {
-            const struct chain *of = &document->rigs[chain]->chain;
-            key = hash_text(hash_text(hash_text(key, of->model), of->from), of->to);
-            key = hash_word(hash_number(key, of->turn), of->mirror);
+            const struct chain *along = &document->rigs[chain]->chain;
+            key = hash_text(hash_text(hash_text(key, along->model), along->from), along->to);
+            key = hash_word(hash_number(key, along->turn), along->mirror);
         }
         key |= 1;
 
@@ -962,7 +965,7 @@ static void motions_bake(struct evaluation *evaluation, const struct document *d
             baked->samples = pool_take(&evaluation->storage->pool, (size_t)count, sizeof *baked->samples);
         }
         if (key != baked->key) {
-            bool good = source->follow && source->follow(source->context, document, motion, baked->raw);
+            bool good = source->follow && source->follow(source->context, document, motion, coordinate, baked->raw);
             for (int i = 0; good && i < count; i++) good = isfinite(baked->raw[i]);
             for (int i = 0; !good && i < count; i++) baked->raw[i] = 0;
         }

@@ -66,9 +66,10 @@ struct model_source {
     /// -1. `room` has LOW_POINT_ROOM numbers per low_point_samples(). false: its model is missing.
     bool (*lowest)(const void *context, const struct evaluation *evaluation, const struct document *document, int rig,
                    double ceiling, double *room, struct low_point *low);
-    /// Writes the motion of a joint at each of the document's samples, in degrees or metres, without gain. false, or NULL: it is 0.
+    /// Writes the motion of a joint at each of the document's samples, in degrees or metres, without gain; MOTION_BASE is for that coordinate.
+    /// false, or NULL: it is 0.
     bool (*follow)(const void *context, const struct document *document, const struct joint_motion *motion,
-                   double *samples);
+                   const char *coordinate, double *samples);
     const void *context;
     uint64_t version; ///< changes when the results may change for the same document
 };

@@ -554,7 +554,6 @@ const struct field motion_fields[] = {
     {FIELD("of", FIELD_WORD, struct joint_motion, of), .words = motion_words, .is_required = true},
     {FIELD("gain", FIELD_NUMBER, struct joint_motion, gain), .range = FIELD_ANY, .usual = {1}},
     {FIELD("chain", FIELD_TEXT, struct joint_motion, chain)},
-    {FIELD("coordinate", FIELD_TEXT, struct joint_motion, coordinate)},
     FIELD_END(struct joint_motion),
 };
 

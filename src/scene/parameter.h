@@ -10,7 +10,7 @@
 #include <wiggly/more.h>
 
 /// The part of a joint's motion that is followed: degrees about world up, metres across the chain's direction or up, or what its acceleration does
-/// to a coordinate of flesh that hangs on it.
+/// to the model's first coordinate that the spline drives.
 enum motion_of { MOTION_TURN, MOTION_ACROSS, MOTION_UP, MOTION_BASE, MOTION_KINDS };
 
 /// The file's words for them, ended by NULL.
@@ -25,9 +25,8 @@ struct joint_motion {
     bool by_file;       ///< `model` is the file
     char *joint;        ///< its name; not looked up here
     enum motion_of of;
-    double gain;      ///< factor
-    char *chain;      ///< the chain whose direction counts, or NULL
-    char *coordinate; ///< of the model, whose numbers MOTION_BASE takes; NULL: none, and it stands still
+    double gain; ///< factor
+    char *chain; ///< the chain whose direction counts, or NULL
     struct json_t *extra;
 };
 

@@ -442,7 +442,7 @@ static double follow(const struct walk *walk, const char *model, const char *joi
                                         .of = of,
                                         .chain = chain ? strcpy(names[2], chain) : NULL};
     double most = 0;
-    if (!source.follow(source.context, walk->opened.document, &motion, samples)) return -1;
+    if (!source.follow(source.context, walk->opened.document, &motion, NULL, samples)) return -1;
     for (int s = 0; s < walk->count; s++) most = fmax(most, fabs(samples[s]));
     return most;
 }

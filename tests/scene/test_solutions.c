@@ -16,8 +16,9 @@ static int reads; ///< of motions
 
 /// A walk that depends on all that a reader may look at.
 static bool read_walk(const void *context, const struct document *document, const struct joint_motion *motion,
-                      double *samples)
+                      const char *coordinate, double *samples)
 {
+    assert_null(coordinate);
     const struct solved *s = context;
     const int model = document_find_model(document, motion->model, motion->by_file);
     reads++;
@@ -210,7 +211,7 @@ static void assert_followed(struct solved *s, int index, double gain)
     const struct spline *spline = document->splines[index];
     const int count = document_samples(document), before = reads;
     double *track = calloc((size_t)count, sizeof *track), *rows = calloc(5 * (size_t)count, sizeof *rows);
-    if (!read_walk(s, document, spline->parameter[PARAMETER_EQUILIBRIUM].motion, track))
+    if (!read_walk(s, document, spline->parameter[PARAMETER_EQUILIBRIUM].motion, NULL, track))
         memset(track, 0, (size_t)count * sizeof *track);
     reads = before;
     for (int i = 0; i < count; i++) track[i] *= gain;

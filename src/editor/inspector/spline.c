@@ -512,7 +512,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
                                                [MOTION_UP] = {"up", "Up"},
                                                [MOTION_BASE] = {"base", "Base"}};
     static const struct row part = {NAMED("joint.of", "joint's"),
-                                    .hint = "Its turn in degrees, or its movement across or up in metres",
+                                    .hint = "Its turn, its way across or up, or what it does to the flesh on it",
                                     .undo = "Set joint's motion", CHOICES(motions)};
     if (followed(in)->motion) {
         int of = (int)followed(in)->motion->of;
