@@ -16,61 +16,42 @@
 
 // --- morph targets of a file: the form's, or each as a positive and a negative one with weights 0 … 1, because Blender clamps weights
 
-/// `scale` times a target of the form.
-struct file_target {
-    int source;
-    float scale;      ///< below 0 for the negative one
-    const char *name; ///< "up.re"; "up.-re" for the negative one
-};
-
-struct file_targets {
-    struct file_target *list; ///< first all of the form's in order, then the negative ones
-    int count;
-    bool clamped; ///< weights are 0 … 1
-};
-
-/// `rows` of weights of all the form's targets, `stride` numbers apart.
-static void make_targets(struct form *form, const float *weights, int rows, int stride, bool clamped,
-                         struct file_targets *targets)
+/// Fills the list: first all of the form's in order, then the negative ones ("up.-re" of "up.re"), for these weights of the form's targets.
+static void make_targets(struct form *form, const struct gltf_weights *weights, int weights_count,
+                         struct gltf_retargeting *r)
 {
-    const int count = form->target_count;
-    *targets = (struct file_targets){.clamped = clamped, .count = count};
-    targets->list = pool_take(&form->pool, 2 * (size_t)count, sizeof *targets->list);
-    for (int t = 0; t < count; t++) {
-        struct file_target *target = &targets->list[t];
-        *target = (struct file_target){.source = t, .scale = 1.0f, .name = form->targets[t].figure.name};
-        // The largest |weight| of a group's targets, at least 1: weights are divided by it.
-        for (int other = 0; clamped && other < count; other++) {
-            if (form->targets[other].group != form->targets[t].group) continue;
-            for (int r = 0; r < rows; r++)
-                target->scale = fmaxf(target->scale, fabsf(weights[(size_t)r * (size_t)stride + (size_t)other]));
+    const size_t count = (size_t)form->target_count;
+    float *low = pool_take(&form->pool, count, sizeof *low), *high = pool_take(&form->pool, count, sizeof *high);
+    for (const struct gltf_weights *of = weights; r->clamped && of < weights + weights_count; of++) {
+        for (int row = of->is_cubic; row < of->rows; row += of->is_cubic ? 3 : 1) {
+            for (size_t t = 0; t < count; t++) {
+                const float weight = of->values[(size_t)row * (size_t)of->stride + t];
+                low[t] = fminf(low[t], weight);
+                high[t] = fmaxf(high[t], weight);
+            }
         }
     }
-    for (int t = 0; clamped && t < count; t++) {
-        int r = 0;
-        while (r < rows && !(weights[(size_t)r * (size_t)stride + (size_t)t] < 0)) r++;
-        if (r == rows) continue;                           // it is never negative
-        const struct file_target *own = &targets->list[t]; // "up.re" → "up.-re", "smile" → "-smile"
+    r->pool = &form->pool;
+    r->before = r->count = form->target_count;
+    r->list = pool_take(&form->pool, 2 * count, sizeof *r->list);
+    for (int t = 0; t < r->before; t++) {
+        struct gltf_retarget *target = &r->list[t];
+        *target = (struct gltf_retarget){.source = t, .scale = 1, .name = form->targets[t].figure.name};
+        // The largest |weight| of a group's targets, at least 1: weights are divided by it.
+        for (int other = 0; other < r->before; other++) {
+            if (form->targets[other].group == form->targets[t].group)
+                target->scale = fmaxf(target->scale, fmaxf(high[other], -low[other]));
+        }
+    }
+    for (int t = 0; t < r->before; t++) {
+        if (!(low[t] < 0)) continue;
+        const struct gltf_retarget *own = &r->list[t]; // "up.re" → "up.-re", "smile" → "-smile"
         const char *dot = strrchr(own->name, '.'), *behind = dot ? dot + 1 : own->name;
         char *start = form_text(&form->pool, own->name, "", "");
         start[behind - own->name] = '\0';
-        targets->list[targets->count++] = (struct file_target){
+        r->list[r->count++] = (struct gltf_retarget){
             .source = t, .scale = -own->scale, .name = form_text(&form->pool, start, "-", behind)};
     }
-}
-
-/// What the file's targets have for these of the form, row by row. The memory is the form's.
-static float *weights_of(struct form *form, const struct file_targets *targets, const float *weights, int rows,
-                         int stride)
-{
-    const int width = targets->count;
-    float *values = pool_take(&form->pool, (size_t)width * (size_t)rows, sizeof *values);
-    for (int i = 0; i < width * rows; i++) {
-        const struct file_target *target = &targets->list[i % width];
-        const float weight = weights[(size_t)(i / width) * (size_t)stride + (size_t)target->source] / target->scale;
-        values[i] = targets->clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
-    }
-    return values;
 }
 
 // --- one animation
@@ -154,14 +135,15 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
 {
     struct form form;
     struct keys keys;
-    struct file_targets targets;
+    struct gltf_retargeting targets = {.clamped = !scene->range->options->is_signed};
     if (!form_open(scene->range, rig, &form, error)) return false;
     if (!keys_collect(scene->range, rig, &form, &keys, error)) {
         form_close(&form);
         return false;
     }
-    const float *weights = keys_at(&keys, 0, keys_weight(&keys, 0));
-    make_targets(&form, weights, keys.count, keys.width, !scene->range->options->is_signed, &targets);
+    const struct gltf_weights weights = {
+        .values = keys_at(&keys, 0, keys_weight(&keys, 0)), .rows = keys.count, .stride = keys.width};
+    make_targets(&form, &weights, 1, &targets);
 
     struct gltf_file *file = &scene->file;
     struct gltf_shape shape = {.name = form.name,
@@ -179,7 +161,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
                                .character = form.character};
     shape.targets = pool_take(&form.pool, (size_t)shape.target_count, sizeof *shape.targets);
     for (int t = 0; t < shape.target_count; t++) {
-        const struct file_target *target = &targets.list[t];
+        const struct gltf_retarget *target = &targets.list[t];
         const struct figure_target *of = &form.targets[target->source].figure;
         shape.targets[t] = (struct gltf_shape_target){target->name, of->position, (const float(*)[3])of->normal,
                                                       of->sign * target->scale, target->scale};
@@ -228,8 +210,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     }
     if (targets.count > 0)
         add_channel(&scene->motion, mesh_node, GLTF_WEIGHTS,
-                    add_sampler(&scene->motion, GLTF_WEIGHTS,
-                                weights_of(&form, &targets, weights, keys.count, keys.width), targets.count,
+                    add_sampler(&scene->motion, GLTF_WEIGHTS, gltf_convert_weights(&targets, &weights), targets.count,
                                 targets.count));
     scene->joints += form.joint_count - form.first_bone;
     scene->targets += targets.count;
@@ -401,7 +382,7 @@ static void push_between(struct gltf_channel *to, const struct gltf_channel *fro
 }
 
 /// Lets a sampler have the part's keys. One whose numbers cannot be read stays as it is.
-static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t *sampler, bool is_rotation,
+static void cut_sampler(struct gltf_file *file, const struct glb *source, json_t *sampler, bool is_rotation,
                         const struct part *part)
 {
     static const enum gltf_elements kinds[17] = {[1] = ELEMENTS_KEYS,
@@ -412,9 +393,9 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
     const char *interpolation = json_string_value(json_object_get(sampler, "interpolation"));
     struct glb_numbers times = {0}, values = {0};
     struct error error;
-    bool good = glb_numbers(stored, glb_integer(sampler, "input", -1), &times, &error) &&
-                glb_numbers(stored, glb_integer(sampler, "output", -1), &values, &error) && times.components == 1 &&
-                times.count > 0;
+    bool good = gltf_file_numbers(file, source, glb_integer(sampler, "input", -1), &times, &error) &&
+                gltf_file_numbers(file, source, glb_integer(sampler, "output", -1), &values, &error) &&
+                times.components == 1 && times.count > 0;
     struct pool pool = {0};
     struct gltf_channel unrolled, result,
         own = {.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
@@ -555,10 +536,11 @@ static bool collect_clip_keys(struct export_range *range, struct form *form, con
     return done;
 }
 
-/// Puts the keys of the chains into the clip that the rig plays, or into a copy of it. `root` is the file's JSON, which `file` continues.
-static bool put_clip(struct export_range *range, struct form *form, struct gltf_file *file, json_t *root,
+/// Puts the keys of the chains into the clip that the rig plays, or into a copy of it. `file` continues the source.
+static bool put_clip(struct export_range *range, struct form *form, struct gltf_file *file, struct glb *source,
                      struct error *error)
 {
+    json_t *root = source->json;
     const struct model_body *body = form->owned;
     const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]]->model;
     const char *wanted = range->options->clip ? range->options->clip : model->clip ? model->clip : range->title;
@@ -606,26 +588,18 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
     motion.samplers = json_object_get(clip, "samplers");
     motion.channels = json_object_get(clip, "channels");
     if (playing && !part.is_clip) { // all samplers but those of chains get the part's keys
-        struct glb stored;
-        bool is_read = glb_open(&stored, body->gltf->path, error);
         const size_t samplers = json_array_size(motion.samplers);
         bool *done = need_zeroed(samplers + 1, sizeof *done);
-        if (is_read && !(is_read = glb_read_buffers(&stored, error))) glb_close(&stored);
-        json_array_foreach(is_read ? motion.channels : NULL, i, channel)
+        json_array_foreach(motion.channels, i, channel)
         {
             const char *path = json_string_value(json_object_get(json_object_get(channel, "target"), "path"));
             const size_t s = (size_t)glb_integer(channel, "sampler", -1);
             if (s >= samplers || done[s] || is_splines(form, channel)) continue;
             done[s] = true;
-            cut_sampler(file, &stored, json_array_get(motion.samplers, s), path && strcmp(path, "rotation") == 0,
+            cut_sampler(file, source, json_array_get(motion.samplers, s), path && strcmp(path, "rotation") == 0,
                         &part);
         }
         free(done);
-        if (is_read) glb_close(&stored);
-        if (!is_read) {
-            json_decref(clip);
-            return false;
-        }
     }
 
     for (int j = 0; j < form->joint_count; j++)
@@ -686,7 +660,8 @@ static bool check_place(const struct export_range *range, const struct glb *sour
 // --- the clips
 
 /// Adds what the chains make of another clip of the file.
-static bool put_other(struct export_range *range, int clip, struct gltf_file *file, json_t *root, struct error *error)
+static bool put_other(struct export_range *range, int clip, struct gltf_file *file, struct glb *source,
+                      struct error *error)
 {
     const struct posing *first = range->posing;
     const int rig = range->rigs[0];
@@ -703,7 +678,7 @@ static bool put_other(struct export_range *range, int clip, struct gltf_file *fi
     range->posing = &posing;
     bool done = range_choose_keys(range, &report, error) && form_open(range, rig, &form, error);
     if (done) {
-        done = put_clip(range, &form, file, root, error);
+        done = put_clip(range, &form, file, source, error);
         form_close(&form);
     }
     evaluation_free(&evaluation);
@@ -714,170 +689,39 @@ static bool put_other(struct export_range *range, int clip, struct gltf_file *fi
 
 // --- the morph targets of a soft mesh, for the weights that its clips have
 
-/// A channel of weights of the mesh in any clip of the file.
-struct weights {
-    json_t *sampler;
-    float *values;      ///< `rows` of the targets before
-    int rows, tangents; ///< of a cubic clip two of three rows are tangents
-};
-
-/// The numbers of an accessor: new ones are in `file`, all others in the file as it was. NULL: they cannot be read.
-static float *numbers_of(const struct gltf_file *file, const struct glb *stored, json_int_t number, size_t *count)
-{
-    struct glb_numbers numbers;
-    struct error error;
-    float *values = NULL;
-    *count = 0;
-    if (number < (json_int_t)json_array_size(json_object_get(stored->json, "accessors"))) {
-        if (!glb_numbers(stored, number, &numbers, &error)) return NULL;
-        *count = (size_t)numbers.count * (size_t)numbers.components;
-        values = need(*count + 1, sizeof *values);
-        for (size_t i = 0; i < *count; i++) values[i] = (float)numbers.values[i];
-        free(numbers.values);
-        return values;
-    }
-    const json_t *accessor = json_array_get(file->accessors, (size_t)number);
-    const json_t *view = json_array_get(file->views, (size_t)glb_integer(accessor, "bufferView", -1));
-    *count = (size_t)glb_integer(accessor, "count", 0);
-    values = need(*count + 1, sizeof *values);
-    memcpy(values, file->data + glb_integer(view, "byteOffset", 0), *count * sizeof *values);
-    return values;
-}
-
-/// The weights of a mesh in all clips of the file, as they are now.
-static struct weights *collect_weights(const struct gltf_file *file, const json_t *root, const struct glb *stored,
-                                       int mesh, int targets, struct pool *pool, int *count)
-{
-    const json_t *nodes = json_object_get(root, "nodes"), *clip, *channel;
-    struct weights *list = NULL;
-    size_t c, i, all;
-    *count = 0;
-    json_array_foreach(json_object_get(root, "animations"), c, clip)
-    {
-        json_array_foreach(json_object_get(clip, "channels"), i, channel)
-        {
-            const json_t *target = json_object_get(channel, "target");
-            const int64_t node = glb_integer(target, "node", -1), s = glb_integer(channel, "sampler", -1);
-            const char *path = json_string_value(json_object_get(target, "path"));
-            json_t *sampler = s < 0 ? NULL : json_array_get(json_object_get(clip, "samplers"), (size_t)s);
-            bool known = node < 0 || !sampler || !path || strcmp(path, "weights") != 0 ||
-                         glb_integer(json_array_get(nodes, (size_t)node), "mesh", -1) != mesh;
-            for (int n = 0; n < *count; n++) known |= list[n].sampler == sampler;
-            float *values = known ? NULL : numbers_of(file, stored, glb_integer(sampler, "output", -1), &all);
-            if (!values) continue;
-            const char *how = json_string_value(json_object_get(sampler, "interpolation"));
-            list = need_more(list, (size_t)*count + 1, sizeof *list);
-            list[*count] = (struct weights){.sampler = sampler,
-                                            .values = pool_take(pool, all + 1, sizeof *values),
-                                            .rows = (int)(all / (size_t)targets),
-                                            .tangents = how && strcmp(how, "CUBICSPLINE") == 0};
-            memcpy(list[(*count)++].values, values, all * sizeof *values);
-            free(values);
-        }
-    }
-    return list;
-}
-
-/// A primitive's targets; `like`: those of another one that it shares its vertices with.
-static json_t *primitive_targets(struct gltf_file *file, const struct form *form, const struct file_targets *targets,
-                                 const struct gltf_part *part, const json_t *before, const json_t *like)
-{
-    const struct model_body *body = form->owned;
-    static const char *const attributes[] = {"POSITION", "NORMAL"};
-    json_t *list = like ? json_deep_copy(like) : json_array();
-    float(*offsets)[3] = need((size_t)part->vertex_count, sizeof *offsets);
-    for (int t = 0; t < targets->count && !like; t++) {
-        const struct file_target *target = &targets->list[t];
-        json_t *kept = json_array_get(before, (size_t)target->source);
-        const bool is_painted = body->figure->version > 1 && form->targets[target->source].group >= 0;
-        if (target->scale == 1 && kept && !is_painted) {
-            gltf_append(file, list, json_deep_copy(kept));
-            continue;
-        }
-        json_t *own = json_object();
-        const struct gltf_target *of = &part->targets[target->source];
-        const float(*const from[])[3] = {(const float(*)[3])of->position, (const float(*)[3])of->normal};
-        for (int a = 0; a < 2; a++) {
-            if (a > 0 && !from[a]) continue;
-            for (int n = 0; n < 3 * part->vertex_count; n++)
-                offsets[n / 3][n % 3] = from[a] ? target->scale * from[a][n / 3][n % 3] : 0;
-            gltf_set(file, own, attributes[a],
-                     json_integer(gltf_file_add(file, ELEMENTS_VECTORS, offsets, (size_t)part->vertex_count, !a)));
-        }
-        gltf_append(file, list, own);
-    }
-    free(offsets);
-    return list;
-}
-
 /// Gives the soft mesh targets by which weights stay within 0 … 1, and those of paint, and all clips their weights.
-static bool put_targets(const struct export_range *range, struct form *form, struct gltf_file *file, json_t *root,
-                        struct error *error)
+static bool put_targets(const struct export_range *range, struct form *form, struct gltf_file *file,
+                        struct glb *source, struct error *error)
 {
     const struct model_body *body = form->owned;
-    const int mesh = body->gltf->nodes[body->soft].mesh, before = form->target_count;
-    const struct gltf_mesh *shown = &body->gltf->meshes[mesh];
-    struct glb stored;
-    int clips, part = 0, total = 0;
-    size_t p;
-    if (!glb_open(&stored, body->gltf->path, error)) return false;
-    bool done = glb_read_buffers(&stored, error);
-    struct weights *list = done ? collect_weights(file, root, &stored, mesh, before, &form->pool, &clips) : NULL;
-    glb_close(&stored);
-    if (!done) return false;
-
-    // Targets for the weights of all clips together.
-    for (int c = 0; c < clips; c++) total += list[c].rows;
-    float *all = pool_take(&form->pool, (size_t)total * (size_t)before + 1, sizeof *all), *to = all;
-    for (int c = 0; c < clips; c++) {
-        for (int r = list[c].tangents; r < list[c].rows; r += list[c].tangents ? 3 : 1)
-            to = mempcpy(to, list[c].values + (size_t)r * (size_t)before, (size_t)before * sizeof *to);
+    const bool is_painted = body->figure->version > 1;
+    struct gltf_retargeting r = {.file = file,
+                                 .source = source,
+                                 .pool = &form->pool,
+                                 .mesh = body->gltf->nodes[body->soft].mesh,
+                                 .before = form->target_count,
+                                 .clamped = !range->options->is_signed};
+    bool done = gltf_find_weights(&r, error), changes = is_painted;
+    if (done) make_targets(form, r.clips, r.clip_count, &r); // for the weights of all clips together
+    for (int t = 0; done && t < r.count; t++) {
+        changes |= r.list[t].scale != 1;
+        r.list[t].is_new = is_painted && form->targets[r.list[t].source].group >= 0;
     }
-    struct file_targets targets;
-    const int rows = (int)((to - all) / before);
-    make_targets(form, all, rows, before, !range->options->is_signed, &targets);
-    bool changes = targets.count > before || body->figure->version > 1;
-    for (int t = 0; t < before; t++) changes |= targets.list[t].scale != 1;
-
-    json_t *json = json_array_get(json_object_get(root, "meshes"), (size_t)mesh), *primitive, *first = NULL, *node;
-    json_array_foreach(changes ? json_object_get(json, "primitives") : NULL, p, primitive)
-    {
-        if (part == shown->part_count || shown->parts[part].primitive != (int)p) continue;
-        const struct gltf_part *own = &shown->parts[part++];
-        gltf_set(file, primitive, "targets",
-                 primitive_targets(file, form, &targets, own, json_object_get(primitive, "targets"),
-                                   own->shared ? first : NULL));
-        if (!own->shared) first = json_object_get(primitive, "targets");
-    }
-    if (changes) {
-        json_t *extras = json_object_get(json, "extras"), *names = json_array(), *entry;
-        for (int t = 0; t < targets.count; t++) gltf_append(file, names, json_string(targets.list[t].name));
-        gltf_set(file, extras, "targetNames", names);
-        json_array_foreach(json_object_get(json_object_get(extras, "wiggly"), "coordinates"), p, entry)
+    if (done && changes) {
+        json_t *json = json_array_get(json_object_get(source->json, "meshes"), (size_t)r.mesh), *entry;
+        json_t *known = json_object_get(json_object_get(json, "extras"), "wiggly");
+        size_t i;
+        json_array_foreach(json_object_get(known, "coordinates"), i, entry)
         {
             const int coordinate = figure_find(body->figure, json_string_value(json_object_get(entry, "name")));
             if (coordinate < 0) continue;
             const struct coordinate *c = &body->figure->character.coordinates[coordinate];
-            gltf_set(file, entry, "scale", json_real(c->scale * (double)targets.list[c->target[0]].scale));
+            gltf_set(file, entry, "scale", json_real(c->scale * (double)r.list[c->target[0]].scale));
         }
-        const float *rest = weights_of(form, &targets, shown->weights, 1, before);
-        gltf_set(file, json, "weights", gltf_numbers(file, rest, targets.count));
-        json_array_foreach(json_object_get(root, "nodes"), p, node)
-        {
-            if (glb_integer(node, "mesh", -1) != mesh || !json_object_get(node, "weights")) continue;
-            const float *own = body->gltf->weights + body->gltf->nodes[p].first_weight;
-            gltf_set(file, node, "weights",
-                     gltf_numbers(file, weights_of(form, &targets, own, 1, before), targets.count));
-        }
+        done = gltf_retarget(&r, &body->gltf->meshes[r.mesh], error);
     }
-    for (int c = 0; c < clips && changes; c++) {
-        const float *values = weights_of(form, &targets, list[c].values, list[c].rows, before);
-        gltf_set(file, list[c].sampler, "output",
-                 json_integer(gltf_file_add(file, ELEMENTS_KEYS, values, (size_t)list[c].rows * (size_t)targets.count,
-                                            false)));
-    }
-    free(list);
-    return true;
+    free(r.clips);
+    return done;
 }
 
 /// Copies the file of the range's only rig and gives its clip, or a copy of that by another name, the keys of chains. Everything else stays the
@@ -910,26 +754,27 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
         // The bytes that new ones follow: those of a .glb's chunk, if that is its first buffer; none of a .gltf; else all there are.
         const json_t *buffers = json_object_get(source.json, "buffers"), *first = json_array_get(buffers, 0);
         const bool has_chunk = source.chunk.at && first && !json_object_get(first, "uri");
-        gltf_file_continue(&to, source.json);
-        if (!is_same || (binary && !has_chunk)) {
+        done = glb_read_buffers(&source, error);
+        if (done && (!is_same || (binary && !has_chunk))) {
             done = gltf_file_gather(&to, &source, error);
-        } else {
+        } else if (done) {
+            gltf_file_continue(&to, source.json);
             if (has_chunk) gltf_file_append(&to, source.chunk.at, source.chunk.size);
             if (!has_chunk) to.buffer = (json_int_t)json_array_size(buffers);
             done = check_place(range, &source, error);
         }
         if (done && has_clip) {
-            done = put_clip(range, &form, &to, source.json, error);
+            done = put_clip(range, &form, &to, &source, error);
             clips = 1;
         }
         for (int c = 0; done && has_clip && range->options->all_clips && c < body->gltf->clip_count; c++) {
             const struct gltf_clip *clip = &body->gltf->clips[c]; // chains do not move in clips of a single pose
             if (clip == body->clip || !(clip->last > clip->first)) continue;
-            done = put_other(range, c, &to, source.json, error);
+            done = put_other(range, c, &to, &source, error);
             clips++;
         }
 
-        if (done && body->soft >= 0) done = put_targets(range, &form, &to, source.json, error);
+        if (done && body->soft >= 0) done = put_targets(range, &form, &to, &source, error);
 
         // All scenes' nodes go under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
         // validators warn of one that has a parent.

@@ -457,21 +457,11 @@ bool character_write(const char *path, const struct character *character, bool t
         }
     }
 
-    struct file_output out;
-    struct error why;
-    bool done = file_output_open(&out, path, error);
-    if (done) {
-        json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o]}", "asset", "version", "2.0",
-                                 "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name",
-                                 "character", "mesh", 0, "meshes", gltf_shape_json(&looks, &shape));
-        gltf_looks_complete(&looks, root);
-        done =
-            gltf_file_write(&file, root, true, out.stream, &why) || fail(error, why.kind, "%s: %s", path, why.text);
-        if (done)
-            done = file_output_commit(&out, error);
-        else
-            file_output_discard(&out);
-    }
+    json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o]}", "asset", "version", "2.0",
+                             "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name", "character",
+                             "mesh", 0, "meshes", gltf_shape_json(&looks, &shape));
+    gltf_looks_complete(&looks, root);
+    const bool done = gltf_file_save(&file, root, path, error);
     gltf_looks_free(&looks);
     gltf_file_free(&file);
     pool_free(&pool);

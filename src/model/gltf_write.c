@@ -179,6 +179,19 @@ bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *ou
     return true;
 }
 
+bool gltf_file_save(struct gltf_file *file, json_t *root, const char *path, struct error *error)
+{
+    struct file_output out;
+    struct error why;
+    if (!file_output_open(&out, path, error)) {
+        json_decref(root);
+        return false;
+    }
+    if (gltf_file_write(file, root, true, out.stream, &why)) return file_output_commit(&out, error);
+    file_output_discard(&out);
+    return fail(error, why.kind, "%s: %s", path, why.text);
+}
+
 void gltf_file_free(struct gltf_file *file)
 {
     json_decref(file->views);
@@ -207,7 +220,7 @@ bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *
     } known[] = {{"\x89PNG", "image/png", 4}, {"\xFF\xD8", "image/jpeg", 2}, {"\xABKTX 20", "image/ktx2", 7}};
     json_t *view, *extension, *image;
     size_t i;
-    if (!glb_read_buffers(source, error)) return false;
+    gltf_file_continue(file, source->json);
     const size_t count = json_array_size(json_object_get(source->json, "buffers"));
     size_t *starts = calloc(count + 1, sizeof *starts);
     bool done = starts;
@@ -367,147 +380,220 @@ json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *c,
     return known;
 }
 
-/// Adds `count` zeros to each key of the weights that clips give a node.
-static bool widen_keys(struct gltf_file *file, struct glb *source, json_t *sampler, int targets, int count,
-                       struct error *error)
+// --- the morph targets of a mesh that the file has
+
+bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, int64_t accessor,
+                       struct glb_numbers *numbers, struct error *error)
 {
-    struct glb_numbers keys;
-    const int64_t accessor = glb_integer(sampler, "output", -1);
-    if (!glb_numbers(source, accessor, &keys, error)) return false;
-    const size_t rows = targets > 0 ? (size_t)(keys.count / targets) : 0, width = (size_t)(targets + count);
-    float *wide = need_zeroed(rows * width + 1, sizeof *wide);
-    for (size_t n = 0; n < rows * (size_t)targets; n++)
-        wide[n / (size_t)targets * width + n % (size_t)targets] = (float)keys.values[n];
-    gltf_set(file, sampler, "output", json_integer(gltf_file_add(file, ELEMENTS_KEYS, wide, rows * width, false)));
-    free(wide);
-    free(keys.values);
+    struct glb now = *source;
+    if (now.buffer_count <= file->buffer) now.buffer_count = (int)file->buffer + 1;
+    now.buffers = need_zeroed((size_t)now.buffer_count, sizeof *now.buffers);
+    memcpy(now.buffers, source->buffers, (size_t)source->buffer_count * sizeof *now.buffers);
+    now.buffers[file->buffer].bytes = (struct glb_bytes){(unsigned char *)file->data, file->size};
+    now.room += GLB_GROWTH * file->size;
+    const bool done = glb_numbers(&now, accessor, numbers, error);
+    free(now.buffers);
+    return done;
+}
+
+bool gltf_find_weights(struct gltf_retargeting *r, struct error *error)
+{
+    const json_t *root = r->source->json, *nodes = json_object_get(root, "nodes"), *clip, *channel;
+    size_t c, i;
+    json_array_foreach(json_object_get(root, "animations"), c, clip)
+    {
+        json_array_foreach(json_object_get(clip, "channels"), i, channel)
+        {
+            struct glb_numbers numbers;
+            const json_t *target = json_object_get(channel, "target");
+            const char *path = json_string_value(json_object_get(target, "path"));
+            const json_t *node = json_array_get(nodes, (size_t)glb_integer(target, "node", -1));
+            json_t *sampler =
+                json_array_get(json_object_get(clip, "samplers"), (size_t)glb_integer(channel, "sampler", -1));
+            bool known = !sampler || !path || strcmp(path, "weights") != 0 || r->before == 0 ||
+                         glb_integer(node, "mesh", -1) != r->mesh;
+            for (int n = 0; n < r->clip_count; n++) known |= r->clips[n].sampler == sampler;
+            if (known) continue;
+            if (!gltf_file_numbers(r->file, r->source, glb_integer(sampler, "output", -1), &numbers, error))
+                return false;
+            const char *how = json_string_value(json_object_get(sampler, "interpolation"));
+            const int count = numbers.count * numbers.components;
+            float *values = pool_take(r->pool, (size_t)count, sizeof *values);
+            for (int n = 0; n < count; n++) values[n] = (float)numbers.values[n];
+            free(numbers.values);
+            r->clips = need_more(r->clips, (size_t)r->clip_count + 1, sizeof *r->clips);
+            r->clips[r->clip_count++] = (struct gltf_weights){.values = values,
+                                                              .rows = count / r->before,
+                                                              .stride = r->before,
+                                                              .is_cubic = how && strcmp(how, "CUBICSPLINE") == 0,
+                                                              .sampler = sampler};
+        }
+    }
     return true;
 }
 
-/// Adds `count` zeros to an array of weights; makes one of `targets` if there is none.
-static void widen(struct gltf_file *file, json_t *object, int targets, int count)
+float *gltf_convert_weights(const struct gltf_retargeting *r, const struct gltf_weights *weights)
 {
-    for (int t = (int)json_array_size(json_object_get(object, "weights")); t < targets + count; t++)
-        gltf_append_to(file, object, "weights", json_integer(0));
+    float *values = pool_take(r->pool, (size_t)r->count * (size_t)weights->rows, sizeof *values), *to = values;
+    for (int row = 0; row < weights->rows; row++) {
+        for (int t = 0; t < r->count; t++) {
+            const struct gltf_retarget *target = &r->list[t];
+            const float *from = weights->values + (size_t)row * (size_t)weights->stride + target->source;
+            const float weight = target->source < r->before ? *from / target->scale : 0;
+            *to++ = r->clamped ? fminf(fmaxf(weight, 0), 1) : weight;
+        }
+    }
+    return values;
 }
 
-/// Adds the targets to a mesh, and says in its extras what they are.
-static void add_coordinates(struct gltf_file *file, json_t *json, const struct gltf_mesh *mesh,
-                            const struct coordinate *coordinates, int count)
+/// An attribute of a target: `scale` times vectors.
+static void add_offsets(const struct gltf_retargeting *r, json_t *target, const char *name, const float *from,
+                        size_t count, float scale)
 {
-    const json_t *accessors = file->accessors;
-    json_t *primitive, *first = NULL, *extras = json_object_get(json, "extras");
+    float *scaled = need(3 * count, sizeof *scaled);
+    for (size_t n = 0; n < 3 * count; n++) scaled[n] = scale * from[n];
+    const bool bounds = strcmp(name, "POSITION") == 0;
+    gltf_set(r->file, target, name, json_integer(gltf_file_add(r->file, ELEMENTS_VECTORS, scaled, count, bounds)));
+    free(scaled);
+}
+
+/// A target of a primitive; `part`: what is shown of that, or NULL; `kept`: the target that it has, or NULL.
+static json_t *make_target(const struct gltf_retargeting *r, const struct gltf_retarget *wanted,
+                           const struct gltf_part *part, json_t *kept, size_t vertices, struct error *error)
+{
+    json_t *own = json_object(), *accessor;
+    const char *name;
+    if (part && wanted->is_new) {
+        add_offsets(r, own, "POSITION", *part->targets[wanted->source].position, vertices, wanted->scale);
+    } else if (!kept) { // an accessor without bytes is all zeros
+        static const float zero[3];
+        accessor = json_pack("{s:i, s:I, s:s}", "componentType", NUMBER_FLOAT32, "count", (json_int_t)vertices,
+                             "type", "VEC3");
+        gltf_file_bound(r->file, accessor, zero, 1, 3);
+        gltf_set(r->file, own, "POSITION", json_integer(gltf_append(r->file, r->file->accessors, accessor)));
+    }
+    json_object_foreach(part && wanted->is_new ? NULL : kept, name, accessor)
+    {
+        struct glb_numbers numbers = {0};
+        if (wanted->scale != 1 &&
+            !gltf_file_numbers(r->file, r->source, json_integer_value(accessor), &numbers, error)) {
+            json_decref(own);
+            return NULL;
+        }
+        if (numbers.components == 3) {
+            float *from = need(3 * (size_t)numbers.count, sizeof *from);
+            for (int n = 0; n < 3 * numbers.count; n++) from[n] = (float)numbers.values[n];
+            add_offsets(r, own, name, from, (size_t)numbers.count, wanted->scale);
+            free(from);
+        } else {
+            gltf_set(r->file, own, name, json_incref(accessor));
+        }
+        free(numbers.values);
+    }
+    return own;
+}
+
+/// Converts the weights at rest that a mesh or node has.
+static void put_weights(const struct gltf_retargeting *r, json_t *object)
+{
+    float *values = pool_take(r->pool, (size_t)r->before + 1, sizeof *values);
+    for (int t = 0; t < r->before; t++)
+        values[t] = (float)json_number_value(json_array_get(json_object_get(object, "weights"), (size_t)t));
+    const float *converted = gltf_convert_weights(r, &(struct gltf_weights){.values = values, .rows = 1});
+    gltf_set(r->file, object, "weights", gltf_numbers(r->file, converted, r->count));
+}
+
+bool gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mesh, struct error *error)
+{
+    struct gltf_file *file = r->file;
+    json_t *json = json_array_get(json_object_get(r->source->json, "meshes"), (size_t)r->mesh);
+    json_t *primitive, *first = NULL, *node, *names = json_array();
     size_t p;
-    int part = 0, row = 0;
+    int shown = 0;
     json_array_foreach(json_object_get(json, "primitives"), p, primitive)
     {
-        const struct gltf_part *own = &mesh->parts[part];
-        const bool shows = part < mesh->part_count && own->primitive == (int)p, shared = shows && own->shared;
-        const json_t *position =
-            json_array_get(accessors, (size_t)glb_integer(json_object_get(primitive, "attributes"), "POSITION", -1));
-        const int64_t vertices = shows ? own->vertex_count : glb_integer(position, "count", 1);
-        json_t *targets = json_object_get(primitive, "targets");
-        json_int_t none = -1;
-        if (!targets) gltf_set(file, primitive, "targets", targets = json_array());
-        for (int t = (int)json_array_size(targets); t < mesh->target_count + 2 * count; t++) {
-            const int k = (t - mesh->target_count) / 2, im = (t - mesh->target_count) % 2;
-            json_int_t accessor;
-            if (shared && t >= mesh->target_count) { // so that readers see that they are the same
-                gltf_append(file, targets,
-                            json_deep_copy(json_array_get(json_object_get(first, "targets"), (size_t)t)));
-                continue;
-            }
-            if (t < mesh->target_count || !shows) { // an accessor without bytes is all zeros
-                static const float zero[3];
-                if (none < 0) {
-                    json_t *empty = json_pack("{s:i, s:I, s:s}", "componentType", NUMBER_FLOAT32, "count",
-                                              (json_int_t)vertices, "type", "VEC3");
-                    gltf_file_bound(file, empty, zero, 1, 3);
-                    none = gltf_append(file, file->accessors, empty);
-                }
-                accessor = none;
-            } else {
-                const float(*from)[3] = (const float(*)[3])(im ? coordinates[k].im : coordinates[k].re) + row;
-                float(*turned)[3] = need((size_t)vertices, sizeof *turned);
-                for (int64_t n = 0; n < 3 * vertices; n++)
-                    turned[n / 3][n % 3] = im ? -from[n / 3][n % 3] : from[n / 3][n % 3];
-                accessor = gltf_file_add(file, ELEMENTS_VECTORS, turned, (size_t)vertices, true);
-                free(turned);
-            }
-            gltf_append(file, targets, json_pack("{s:I}", "POSITION", accessor));
+        const bool shows = shown < mesh->part_count && mesh->parts[shown].primitive == (int)p;
+        const struct gltf_part *part = shows ? &mesh->parts[shown++] : NULL;
+        const int64_t position = glb_integer(json_object_get(primitive, "attributes"), "POSITION", -1);
+        const size_t vertices = (size_t)glb_integer(json_array_get(file->accessors, (size_t)position), "count", 1);
+        const json_t *had = json_object_get(primitive, "targets");
+        json_t *list =
+            part && part->shared ? json_deep_copy(first) : json_array(); // readers see that they are the same
+        for (int t = (int)json_array_size(list); t < r->count; t++) {
+            json_t *kept = json_array_get(had, (size_t)r->list[t].source);
+            json_t *own = make_target(r, &r->list[t], part, kept, vertices, error);
+            if (own) gltf_append(file, list, own);
+            if (own) continue;
+            json_decref(list);
+            json_decref(names);
+            return false;
         }
-        if (!shows) continue;
-        if (!shared) first = primitive;
-        row += own->vertex_count;
-        part++;
+        gltf_set(file, primitive, "targets", list);
+        if (part && !first) first = list;
     }
 
+    json_t *extras = json_object_get(json, "extras");
     if (!json_is_object(extras)) gltf_set(file, json, "extras", extras = json_object());
-    json_t *known = json_object_get(extras, "wiggly"), *names = json_object_get(extras, "targetNames");
-    if (!json_is_object(known)) gltf_set(file, extras, "wiggly", known = json_object());
-    if (!json_is_array(names)) gltf_set(file, extras, "targetNames", names = json_array());
-    for (int t = (int)json_array_size(names); t < mesh->target_count; t++) {
-        const char *name = gltf_target_name(mesh, t);
+    for (int t = 0; t < r->count; t++) {
+        const char *name = r->list[t].name;
         gltf_append(file, names, name ? json_string(name) : json_sprintf("target %d", t));
     }
-    for (int k = 0; k < count; k++) {
-        gltf_append(file, names, json_sprintf("%s.re", coordinates[k].name));
-        gltf_append(file, names, json_sprintf("%s.im", coordinates[k].name));
-        gltf_append_to(file, known, "coordinates", gltf_coordinate_json(file, &coordinates[k], 1));
+    gltf_set(file, extras, "targetNames", names);
+    put_weights(r, json);
+    json_array_foreach(json_object_get(r->source->json, "nodes"), p, node)
+    {
+        if (glb_integer(node, "mesh", -1) == r->mesh && json_object_get(node, "weights")) put_weights(r, node);
     }
-    widen(file, json, mesh->target_count, 2 * count);
+    for (int c = 0; c < r->clip_count; c++) {
+        const struct gltf_weights *clip = &r->clips[c];
+        const size_t count = (size_t)clip->rows * (size_t)r->count;
+        gltf_set(file, clip->sampler, "output",
+                 json_integer(gltf_file_add(file, ELEMENTS_KEYS, gltf_convert_weights(r, clip), count, false)));
+    }
+    return true;
 }
 
 bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, const struct coordinate *coordinates,
                        int count, struct error *error)
 {
-    const int targets = gltf->meshes[mesh].target_count;
+    struct gltf_mesh wide = gltf->meshes[mesh];
+    struct pool pool = {0};
     struct gltf_file file = {0};
     struct glb source;
-    struct file_output out;
-    struct error why;
-    json_t *clip, *channel, *node;
-    size_t i, c;
+    struct gltf_retargeting r = {
+        .file = &file, .source = &source, .pool = &pool, .mesh = mesh, .before = wide.target_count};
     if (!glb_open(&source, gltf->path, error)) return false;
-    gltf_file_continue(&file, source.json);
-    bool done = gltf_file_gather(&file, &source, error);
-    json_t *nodes = json_object_get(source.json, "nodes");
-    json_array_foreach(nodes, i, node)
-    {
-        if (glb_integer(node, "mesh", -1) == mesh && json_object_get(node, "weights"))
-            widen(&file, node, targets, 2 * count);
+    r.count = r.before + 2 * count;
+    r.list = pool_take(&pool, (size_t)r.count, sizeof *r.list);
+    for (int t = 0; t < r.before; t++)
+        r.list[t] = (struct gltf_retarget){.source = t, .scale = 1, .name = gltf_target_name(&wide, t)};
+    for (int n = 0; n < 2 * count; n++) {
+        const struct coordinate *of = &coordinates[n / 2];
+        const char *ending = coordinate_endings[n % 2];
+        char *name = pool_take(&pool, strlen(of->name) + strlen(ending) + 1, 1);
+        stpcpy(stpcpy(name, of->name), ending);
+        r.list[r.before + n] = (struct gltf_retarget){r.before + n, (float)coordinate_sign(n % 2), name, true};
     }
-    json_array_foreach(json_object_get(source.json, "animations"), i, clip)
-    {
-        json_t *samplers = json_object_get(clip, "samplers");
-        bool *widened = need_zeroed(json_array_size(samplers) + 1, sizeof *widened);
-        json_array_foreach(json_object_get(clip, "channels"), c, channel)
-        {
-            const json_t *target = json_object_get(channel, "target");
-            const char *moves = json_string_value(json_object_get(target, "path"));
-            const size_t sampler = (size_t)glb_integer(channel, "sampler", -1);
-            node = json_array_get(nodes, (size_t)glb_integer(target, "node", -1));
-            if (!done || !moves || strcmp(moves, "weights") != 0 || glb_integer(node, "mesh", -1) != mesh ||
-                sampler >= json_array_size(samplers) || widened[sampler])
-                continue;
-            widened[sampler] = true;
-            done = widen_keys(&file, &source, json_array_get(samplers, sampler), targets, 2 * count, error);
-        }
-        free(widened);
+    wide.parts = pool_take(&pool, (size_t)wide.part_count, sizeof *wide.parts);
+    for (int p = 0, row = 0; p < wide.part_count; row += wide.parts[p++].vertex_count) {
+        wide.parts[p] = gltf->meshes[mesh].parts[p];
+        wide.parts[p].targets = pool_take(&pool, (size_t)r.count, sizeof *wide.parts[p].targets);
+        for (int n = 0; n < 2 * count; n++)
+            wide.parts[p].targets[r.before + n].position = coordinates[n / 2].parts[n % 2] + row;
     }
+    bool done = glb_read_buffers(&source, error) && gltf_file_gather(&file, &source, error) &&
+                gltf_find_weights(&r, error) && gltf_retarget(&r, &wide, error);
     if (done) {
-        json_t *json = json_array_get(json_object_get(source.json, "meshes"), (size_t)mesh);
-        add_coordinates(&file, json, &gltf->meshes[mesh], coordinates, count);
-        done = file_output_open(&out, path, error);
+        json_t *extras =
+            json_object_get(json_array_get(json_object_get(source.json, "meshes"), (size_t)mesh), "extras");
+        json_t *known = json_object_get(extras, "wiggly");
+        if (!json_is_object(known)) gltf_set(&file, extras, "wiggly", known = json_object());
+        for (int k = 0; k < count; k++)
+            gltf_append_to(&file, known, "coordinates", gltf_coordinate_json(&file, &coordinates[k], 1));
+        done = gltf_file_save(&file, json_incref(source.json), path, error);
     }
-    if (done) {
-        done = gltf_file_write(&file, json_incref(source.json), true, out.stream, &why) ||
-               fail(error, why.kind, "%s: %s", path, why.text);
-        if (done)
-            done = file_output_commit(&out, error);
-        else
-            file_output_discard(&out);
-    }
+    free(r.clips);
+    pool_free(&pool);
     gltf_file_free(&file);
     glb_close(&source);
     return done;

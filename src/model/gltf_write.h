@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 struct glb;
+struct glb_numbers;
 
 /// A .glb begins with the first; the others are the types of its chunks.
 enum {
@@ -43,8 +44,8 @@ enum gltf_elements {
 /// Continues the JSON of an existing file: additions follow what it has.
 void gltf_file_continue(struct gltf_file *file, json_t *root);
 
-/// Puts all bytes that the JSON refers to, pictures too, into the file's one buffer, after gltf_file_continue(). Decompresses meshes. Errors: a
-/// buffer that cannot be read; pictures that cannot keep their address.
+/// Continues a file whose buffers have been read, and puts all bytes that the JSON refers to, pictures too, into the new file's one buffer.
+/// Errors: pictures that cannot keep their address.
 bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *error);
 
 /// Adds bytes that views refer to already, padded to a multiple of four; returns their offset.
@@ -75,10 +76,58 @@ void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, jso
 /// text with the bytes in it. Numbers of the JSON read back equal, and its members keep their order.
 /// False with a sentence if it cannot be made; the stream's errors are the caller's.
 bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error);
+
+/// Writes a .glb of that name with gltf_file_write(), whole or not at all.
+bool gltf_file_save(struct gltf_file *file, json_t *root, const char *path, struct error *error);
 void gltf_file_free(struct gltf_file *file);
 
 /// What the extras of a mesh say of a coordinate whose targets are scaled up.
 json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *coordinate, double scale);
+
+// --- the morph targets of a mesh that the file has
+//
+// The mesh gets a new list of targets: those before times a scale, by weights divided by it, and new ones. Weights at rest and in all clips follow.
+
+/// A target that the mesh gets.
+struct gltf_retarget {
+    int source;       ///< of those before, or of the mesh's parts, if these have more: with the weight 0
+    float scale;      ///< times its offsets
+    const char *name; ///< NULL: it gets a number
+    bool is_new;      ///< its offsets are those of gltf_part.targets, which leave normals alone; else the file's
+};
+
+/// Weights of the targets before, row by row.
+struct gltf_weights {
+    const float *values;
+    int rows, stride;
+    bool is_cubic; ///< of three rows the first and last are tangents
+    json_t *sampler;
+};
+
+struct gltf_retargeting {
+    struct gltf_file *file; ///< continues `source`, whose buffers have been read
+    struct glb *source;
+    struct pool *pool; ///< of the numbers that are made
+    int mesh, before;  ///< its number, and that of its targets before
+    struct gltf_retarget *list;
+    int count;
+    bool clamped;               ///< weights are to be 0 … 1
+    struct gltf_weights *clips; ///< gltf_find_weights(); the caller frees it
+    int clip_count;
+};
+
+/// The numbers of an accessor of the file, or of one that was added.
+bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, int64_t accessor,
+                       struct glb_numbers *numbers, struct error *error);
+
+/// Finds the weights of the mesh in all clips. Errors: numbers that cannot be read.
+bool gltf_find_weights(struct gltf_retargeting *r, struct error *error);
+
+/// What the targets of the list have for weights of those before, `count` a row; in the pool's memory.
+float *gltf_convert_weights(const struct gltf_retargeting *r, const struct gltf_weights *weights);
+
+/// Gives the mesh these targets. `mesh`: how it was read. Errors: targets that cannot be read.
+bool gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mesh, struct error *error);
 
 // --- meshes, their materials and pictures
 //
