@@ -97,6 +97,13 @@ void *pool_take(struct pool *pool, size_t count, size_t size)
     return pool_add(pool, need_zeroed(1, block_bytes(count, size)));
 }
 
+char *pool_text(struct pool *pool, const char *first, const char *second, const char *third)
+{
+    char *text = pool_take(pool, strlen(first) + strlen(second) + strlen(third) + 1, 1);
+    stpcpy(stpcpy(stpcpy(text, first), second), third);
+    return text;
+}
+
 void pool_free(struct pool *pool)
 {
     while (pool->last) {

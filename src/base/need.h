@@ -44,6 +44,10 @@ void *pool_take(struct pool *pool, size_t count, size_t size) __attribute__((ret
 /// The same; NULL if memory is short.
 void *pool_try(struct pool *pool, size_t count, size_t size);
 
+/// Three texts as one.
+char *pool_text(struct pool *pool, const char *first, const char *second, const char *third)
+    __attribute__((returns_nonnull));
+
 /// All of it at once.
 void pool_free(struct pool *pool);
 

@@ -491,7 +491,8 @@ static void make_coordinate(struct coordinate *to, struct flesh *f, const struct
     to->im = pool_take(&f->pool, rows, sizeof *to->im);
     for (int c = 0; c < 3; c++) to->base[c] = round(from->direction[c] / from->scale * 1e6) / 1e6;
     for (size_t v = 0; v < rows; v++) {
-        mat3s turn = glms_mat4_pick3(mat4_from(f->rest.world[f->node]));
+        const struct gltf_part *own = f->part_of[v];
+        mat4s place = mat4_from(f->rest.world[f->node]);
         double squares = 0;
         vec3s part[2];
         for (int c = 0; c < 3; c++) {
@@ -501,17 +502,15 @@ static void make_coordinate(struct coordinate *to, struct flesh *f, const struct
             squares += creal(n * conj(n));
         }
         reach = fmax(reach, sqrt(squares));
-        if (f->part_of[v]->joints) turn = glms_mat3_zero();
         for (int k = 0; k < GLTF_INFLUENCES; k++) {
             int node;
             const double weight = follows(f, (int)v, k, &node);
             energy[node] += weight * squares;
-            if (!f->part_of[v]->joints) continue;
-            const int joint = f->gltf.skins[f->skin].first_joint + f->part_of[v]->joints[f->row_of[v]][k];
-            for (int n = 0; n < 9; n++)
-                turn.raw[n / 3][n % 3] += (float)weight * f->rest.joints[joint][4 * (n / 3) + n % 3];
         }
-        turn = mat3_inverse(turn);
+        if (own->joints)
+            gltf_blend((const float(*)[16])f->rest.joints + f->gltf.skins[f->skin].first_joint,
+                       own->joints[f->row_of[v]], own->weights[f->row_of[v]], *place.raw);
+        const mat3s turn = mat3_inverse(glms_mat4_pick3(place));
         memcpy(to->re[v], glms_mat3_mulv(turn, part[0]).raw, sizeof *to->re);
         memcpy(to->im[v], glms_mat3_mulv(turn, part[1]).raw, sizeof *to->im);
     }
@@ -541,7 +540,7 @@ static bool write_flesh(const struct job *job, struct flesh *f, const struct sha
     }
     while (count < job->modes && count < s->count && (count == 0 || s->candidates[count].explained >= least_share)) {
         const char *name = names_add(&names, job->part.count ? job->part.text[0] : "flesh");
-        coordinates[count].name = strcpy(pool_take(&f->pool, strlen(name) + 1, 1), name);
+        coordinates[count].name = pool_text(&f->pool, name, "", "");
         make_coordinate(&coordinates[count], f, s, &s->candidates[count]);
         count++;
     }
@@ -633,7 +632,7 @@ int command_flesh(int argc, char **argv)
 {
     struct job job = {.depth = -1, .modes = 3, .by = shaking_default()};
     job.by.fps = 0;
-    const struct option_spec options[] = {
+    struct option_spec options[OPTIONS_MOST + 1] = {
         {"-o, --output FILE", "required: a copy of the character, with its flesh as morph targets (.glb)",
          OPTION_OUTPUT, &job.output, 0, 0},
         {"--scene FILE", "also write a scene in which the flesh follows its bones through the first clip",
@@ -649,9 +648,8 @@ int command_flesh(int argc, char **argv)
         {"--soft MAP", "soften by distance (from what is held, the default) or FILE.npy (0 to 1 per vertex)",
          OPTION_TEXT, &job.by.soft_text, 0, 0},
         {"--damping Z", "damping ratio of the mode seen most (0.2)", OPTION_REAL, &job.by.damping, 0, 1},
-        SHAKING_OPTIONS(&job.by),
-        {0},
     };
+    shaking_options(&job.by, options);
     const struct usage usage = {
         .command = "flesh",
         .operands = "character.glb",

@@ -26,47 +26,8 @@ struct shaking {
 };
 struct shaking shaking_default(void);
 
-/// Rows of an option table.
-#define SHAKING_OPTIONS(by)                                                                                            \
-    {"--drive-frequency HZ",                                                                                           \
-     "frequency of burst, sine or mid-sweep (1.375 times that of the body)",                                           \
-     OPTION_REAL,                                                                                                      \
-     &(by)->drive.frequency,                                                                                           \
-     1e-3,                                                                                                             \
-     1e3},                                                                                                             \
-        {"--seconds S", "duration in seconds (4, or 8 periods of the body)", OPTION_REAL, &(by)->seconds, 1e-3, 3600}, \
-        {"--accuracy E", "allowed error, relative to the size of the motion; sets the steps (0.02)",                   \
-         OPTION_REAL,    &(by)->accuracy,                                                                              \
-         1e-4,           1},                                                                                           \
-        {"--budget M",                                                                                                 \
-         "end the search for those steps after M million element-steps (20)",                                          \
-         OPTION_REAL,                                                                                                  \
-         &(by)->budget,                                                                                                \
-         0,                                                                                                            \
-         1e6},                                                                                                         \
-        {"--substeps N", "integrator steps per frame, instead of --accuracy", OPTION_INT, &(by)->substeps, 1, 1000},   \
-        {"--tets N", "approximate number of tetrahedra (3000)", OPTION_INT, &(by)->soft.tets, 50, 200000},             \
-        {"--thickness H",                                                                                              \
-         "make the mesh a sheet H metres thick; 0: close its openings, however large",                                 \
-         OPTION_REAL,                                                                                                  \
-         &(by)->soft.thickness,                                                                                        \
-         0,                                                                                                            \
-         1e6},                                                                                                         \
-        {"--frequency HZ",                                                                                             \
-         "frequency of the mode seen most (--modal: the lowest); sets the stiffness (2)",                              \
-         OPTION_REAL,                                                                                                  \
-         &(by)->soft.frequency,                                                                                        \
-         1e-3,                                                                                                         \
-         1e3},                                                                                                         \
-        {"--young E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &(by)->soft.young, 1e-6, 1e15},    \
-        {"--softness N", "how many times softer where the map is 1 (8)",                                               \
-         OPTION_REAL,    &(by)->soft.softness.times,                                                                   \
-         1e-3,           1e3},                                                                                         \
-        {"--poisson NU", "Poisson's ratio (0.35)", OPTION_REAL, &(by)->soft.poisson, 0, 0.49},                         \
-        {"--density RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &(by)->soft.density, 1e-6, 1e9}, \
-    {                                                                                                                  \
-        "--verbose", "show progress even if standard error is not a terminal", OPTION_FLAG, &(by)->verbose, 0, 0       \
-    }
+/// Adds their common options to a table with room for OPTIONS_MOST and {0}.
+void shaking_options(struct shaking *by, struct option_spec *options);
 
 /// Checks stiffness and mass, and fills in the usual ones; NULL or an error text.
 const char *shaking_check(struct shaking *by);

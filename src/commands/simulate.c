@@ -263,7 +263,7 @@ int command_simulate(int argc, char **argv)
 {
     struct job job = {.opening = {.scale = 1}, .by = shaking_default(), .shake_text = "up", .floor = -1};
     int modes = 0;
-    const struct option_spec options[] = {
+    struct option_spec options[OPTIONS_MOST + 1] = {
         {"-o, --output FILE",
          "required: NAME.npy or NAME.pc2 (--modal: .npy); beside it NAME.rest.obj, NAME.simulation.json",
          OPTION_OUTPUT, &job.output, 0, 0},
@@ -291,9 +291,8 @@ int command_simulate(int argc, char **argv)
          &job.by.loads.gravity, 0, 1e4},
         {"--floor H", "a smooth floor at H above the lowest point", OPTION_REAL, &job.floor, 0, 1e6},
         {"--modal K", "write the K lowest normal modes instead of a shake", OPTION_INT, &modes, 1, 200},
-        SHAKING_OPTIONS(&job.by),
-        {0},
     };
+    shaking_options(&job.by, options);
     const struct usage usage = {
         .command = "simulate",
         .operands = "MESH",

@@ -82,7 +82,7 @@ static bool tail_open(const struct posing *posing, int rig, const struct rig_pos
         const struct gltf_node *node = &gltf->nodes[j];
         struct form_joint *joint = &form->joints[j];
         const char *name = j == 0 ? "base" : node->name + (j < FOX_FIRST_JOINT ? 0 : strlen("tail_"));
-        joint->name = form_text(&form->pool, form->name, "_", name);
+        joint->name = pool_text(&form->pool, form->name, "_", name);
         joint->parent = node->parent;
         for (int k = 0; k < 3; k++) {
             joint->offset[k] = j == 0 ? root[12 + k] : scale * node->place.translation[k];
@@ -281,7 +281,7 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
             char number[32];
             snprintf(number, sizeof number, "target_%d", t);
             const char *name = gltf_target_name(mesh, t);
-            form->targets[t].figure.name = form_text(&form->pool, name ? name : number, "", "");
+            form->targets[t].figure.name = pool_text(&form->pool, name ? name : number, "", "");
             form->targets[t].group = -1 - t;
         }
         for (int k = 0; k < c->coordinate_count; k++) {
@@ -478,16 +478,9 @@ const struct form_kind *form_kind(const struct posing *posing, int rig)
 
 const char *form_name(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
 
-char *form_text(struct pool *pool, const char *first, const char *second, const char *third)
-{
-    char *text = pool_take(pool, strlen(first) + strlen(second) + strlen(third) + 1, 1);
-    stpcpy(stpcpy(stpcpy(text, first), second), third);
-    return text;
-}
-
 char *form_word(struct pool *pool, const char *name)
 {
-    char *word = form_text(pool, name, "", ""), *to = word;
+    char *word = pool_text(pool, name, "", ""), *to = word;
     for (const char *from = name; *from;) {
         const char *letter = from;
         if (letter_is_blank(utf8_next(&from))) {
@@ -511,7 +504,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     struct names names = {.between =
                               "_"}; // other programs identify objects by name, so rigs of the same name get a number
     for (int i = 0; i < rig; i++) names_add(&names, form_name(document->rigs[i]));
-    form->name = form_text(&form->pool, names_add(&names, form_name(source)), "", "");
+    form->name = pool_text(&form->pool, names_add(&names, form_name(source)), "", "");
     names_free(&names);
     if (form->kind->open(range->posing, rig, &pose, form, error)) return true;
     form_close(form);

@@ -171,9 +171,6 @@ const struct gltf *form_gltf(const struct rig_pose *pose, struct pool *pool);
 /// A name as one word, with "_" for each space, at which readers of text end it. The memory is the pool's.
 char *form_word(struct pool *pool, const char *name);
 
-/// Three texts as one, in the pool's memory.
-char *form_text(struct pool *pool, const char *first, const char *second, const char *third);
-
 /// Creates a rig's form. Returns false with an error message and nothing to close.
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error);
 void form_close(struct form *form);

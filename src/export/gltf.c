@@ -47,10 +47,10 @@ static void make_targets(struct form *form, const struct gltf_weights *weights, 
         if (!(low[t] < 0)) continue;
         const struct gltf_retarget *own = &r->list[t]; // "up.re" → "up.-re", "smile" → "-smile"
         const char *dot = strrchr(own->name, '.'), *behind = dot ? dot + 1 : own->name;
-        char *start = form_text(&form->pool, own->name, "", "");
+        char *start = pool_text(&form->pool, own->name, "", "");
         start[behind - own->name] = '\0';
         r->list[r->count++] = (struct gltf_retarget){
-            .source = t, .scale = -own->scale, .name = form_text(&form->pool, start, "-", behind)};
+            .source = t, .scale = -own->scale, .name = pool_text(&form->pool, start, "-", behind)};
     }
 }
 
@@ -718,7 +718,7 @@ static bool put_targets(const struct export_range *range, struct form *form, str
             const struct coordinate *c = &body->figure->character.coordinates[coordinate];
             gltf_set(file, entry, "scale", json_real(c->scale * (double)r.list[c->target[0]].scale));
         }
-        done = gltf_retarget(&r, &body->gltf->meshes[r.mesh], error);
+        gltf_retarget(&r, &body->gltf->meshes[r.mesh]);
     }
     free(r.clips);
     return done;
@@ -803,12 +803,14 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     gltf_file_free(&to);
     glb_close(&source);
     if (has_clip) {
-        char bones[48] = "", targets[48] = "";
-        if (form.joint_count > 0) snprintf(bones, sizeof bones, "%d bones bent by chains", form.joint_count);
-        if (body->soft >= 0)
-            snprintf(targets, sizeof targets, "%s%d morph targets", bones[0] ? ", " : "", form.target_count);
-        snprintf(range->summary, FORMAT_SUMMARY, "%s%s in %d clip%s, %ld keys%s", bones, targets, clips,
-                 clips == 1 ? "" : "s", range->total, was_packed ? ", meshes decompressed" : "");
+        const bool both = form.joint_count > 0 && body->soft >= 0;
+        range->summary[0] = '\0';
+        if (form.joint_count > 0)
+            print_more(range->summary, FORMAT_SUMMARY, "%d bones bent by chains%s", form.joint_count,
+                       both ? ", " : "");
+        if (body->soft >= 0) print_more(range->summary, FORMAT_SUMMARY, "%d morph targets", form.target_count);
+        print_more(range->summary, FORMAT_SUMMARY, " in %d clip%s, %ld keys%s", clips, clips == 1 ? "" : "s",
+                   range->total, was_packed ? ", meshes decompressed" : "");
     } else {
         snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no spline moves it",
                  was_packed ? "meshes decompressed, " : "");

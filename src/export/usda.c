@@ -202,7 +202,7 @@ static void add_joint(struct usda_model *model, int node, int parent, enum usda_
     double local[16];
     *joint = (struct usda_joint){
         .node = node, .parent = parent, .part = part, .moves = part != JOINT_SCALE && moves(model, node)};
-    joint->title = form_text(&model->pool, model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "", "");
+    joint->title = pool_text(&model->pool, model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "", "");
     joint->name = usda_name(&model->joint_names, joint->title, true);
     rest_of(model, j, parent >= 0 ? local : joint->world);
     const double *above = parent >= 0 ? model->joints[parent].world : NULL;
@@ -301,13 +301,14 @@ static void write_joints(const struct usda_model *model, bool moving)
     fputs("]\n", model->out);
 }
 
-static bool is_animated(const struct usda_model *model)
+static bool any_moves(const struct usda_model *model)
 {
-    for (int j = 0; j < model->joint_count; j++) {
-        if (model->joints[j].moves) return true;
-    }
-    return model->gltf->weight_count > 0;
+    bool any = false;
+    for (int j = 0; j < model->joint_count; j++) any |= model->joints[j].moves;
+    return any;
 }
+
+static bool is_animated(const struct usda_model *model) { return any_moves(model) || model->gltf->weight_count > 0; }
 
 static void write_skeleton(struct usda_model *model, int skeleton)
 {
@@ -391,10 +392,8 @@ static void write_samples(const struct usda_model *model, const char *declaratio
 
 static void write_animation(const struct usda_model *model)
 {
-    bool any = false;
-    for (int j = 0; j < model->joint_count; j++) any = any || model->joints[j].moves;
     fputs("        def SkelAnimation \"animation\"\n        {\n", model->out);
-    if (any) {
+    if (any_moves(model)) {
         write_joints(model, true);
         write_samples(model, "float3[] translations", TRANSLATIONS);
         write_samples(model, "quatf[] rotations", ROTATIONS);

@@ -136,12 +136,10 @@ void figure_forget(struct figure *figure)
 
 struct figure_target figure_target_create(const struct figure *figure, int coordinate, int part, struct pool *pool)
 {
-    const char *ending = coordinate_endings[part];
     const struct character *c = &figure->character;
     const struct coordinate *n = &c->coordinates[coordinate];
     struct figure_target target = {.sign = part == 1 ? -1.0f : 1.0f, .position = (const float(*)[3])n->parts[part]};
-    target.name = pool_take(pool, strlen(n->name) + strlen(ending) + 1, 1);
-    stpcpy(stpcpy(target.name, n->name), ending);
+    target.name = pool_text(pool, n->name, coordinate_endings[part], "");
     if (!figure->slopes) return target;
     target.normal = pool_take(pool, (size_t)c->vertex_count, sizeof *target.normal);
     for (int i = 0; i < c->vertex_count; i++) {

@@ -457,13 +457,14 @@ static void add_offsets(const struct gltf_retargeting *r, json_t *target, const 
     free(scaled);
 }
 
-/// A target of a primitive; `part`: what is shown of that, or NULL; `kept`: the target that it has, or NULL.
+/// A target of a primitive; `part`: how that was read, or NULL; `kept`: the target that it has, or NULL.
 static json_t *make_target(const struct gltf_retargeting *r, const struct gltf_retarget *wanted,
-                           const struct gltf_part *part, json_t *kept, size_t vertices, struct error *error)
+                           const struct gltf_part *part, json_t *kept, size_t vertices)
 {
-    json_t *own = json_object(), *accessor;
+    const bool is_new = part && wanted->is_new;
+    json_t *own = kept && !is_new ? json_copy(kept) : json_object(), *accessor;
     const char *name;
-    if (part && wanted->is_new) {
+    if (is_new) {
         add_offsets(r, own, "POSITION", *part->targets[wanted->source].position, vertices, wanted->scale);
     } else if (!kept) { // an accessor without bytes is all zeros
         static const float zero[3];
@@ -472,22 +473,17 @@ static json_t *make_target(const struct gltf_retargeting *r, const struct gltf_r
         gltf_file_bound(r->file, accessor, zero, 1, 3);
         gltf_set(r->file, own, "POSITION", json_integer(gltf_append(r->file, r->file->accessors, accessor)));
     }
-    json_object_foreach(part && wanted->is_new ? NULL : kept, name, accessor)
+    json_object_foreach(is_new || wanted->scale == 1 ? NULL : kept, name, accessor)
     {
-        struct glb_numbers numbers = {0};
-        if (wanted->scale != 1 &&
-            !gltf_file_numbers(r->file, r->source, json_integer_value(accessor), &numbers, error)) {
-            json_decref(own);
-            return NULL;
-        }
-        if (numbers.components == 3) {
-            float *from = need(3 * (size_t)numbers.count, sizeof *from);
-            for (int n = 0; n < 3 * numbers.count; n++) from[n] = (float)numbers.values[n];
-            add_offsets(r, own, name, from, (size_t)numbers.count, wanted->scale);
-            free(from);
-        } else {
-            gltf_set(r->file, own, name, json_incref(accessor));
-        }
+        struct glb_numbers numbers;
+        struct error error;
+        if (!json_is_integer(accessor) ||
+            !gltf_file_numbers(r->file, r->source, json_integer_value(accessor), &numbers, &error))
+            continue;
+        float *from = need((size_t)numbers.count, (size_t)numbers.components * sizeof *from);
+        for (int n = 0; n < numbers.count * numbers.components; n++) from[n] = (float)numbers.values[n];
+        if (numbers.components == 3) add_offsets(r, own, name, from, (size_t)numbers.count, wanted->scale);
+        free(from);
         free(numbers.values);
     }
     return own;
@@ -503,7 +499,7 @@ static void put_weights(const struct gltf_retargeting *r, json_t *object)
     gltf_set(r->file, object, "weights", gltf_numbers(r->file, converted, r->count));
 }
 
-bool gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mesh, struct error *error)
+void gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mesh)
 {
     struct gltf_file *file = r->file;
     json_t *json = json_array_get(json_object_get(r->source->json, "meshes"), (size_t)r->mesh);
@@ -521,12 +517,7 @@ bool gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mes
             part && part->shared ? json_deep_copy(first) : json_array(); // readers see that they are the same
         for (int t = (int)json_array_size(list); t < r->count; t++) {
             json_t *kept = json_array_get(had, (size_t)r->list[t].source);
-            json_t *own = make_target(r, &r->list[t], part, kept, vertices, error);
-            if (own) gltf_append(file, list, own);
-            if (own) continue;
-            json_decref(list);
-            json_decref(names);
-            return false;
+            gltf_append(file, list, make_target(r, &r->list[t], part, kept, vertices));
         }
         gltf_set(file, primitive, "targets", list);
         if (part && !first) first = list;
@@ -550,7 +541,6 @@ bool gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mes
         gltf_set(file, clip->sampler, "output",
                  json_integer(gltf_file_add(file, ELEMENTS_KEYS, gltf_convert_weights(r, clip), count, false)));
     }
-    return true;
 }
 
 bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, const struct coordinate *coordinates,
@@ -569,9 +559,7 @@ bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, cons
         r.list[t] = (struct gltf_retarget){.source = t, .scale = 1, .name = gltf_target_name(&wide, t)};
     for (int n = 0; n < 2 * count; n++) {
         const struct coordinate *of = &coordinates[n / 2];
-        const char *ending = coordinate_endings[n % 2];
-        char *name = pool_take(&pool, strlen(of->name) + strlen(ending) + 1, 1);
-        stpcpy(stpcpy(name, of->name), ending);
+        const char *name = pool_text(&pool, of->name, coordinate_endings[n % 2], "");
         r.list[r.before + n] = (struct gltf_retarget){r.before + n, (float)coordinate_sign(n % 2), name, true};
     }
     wide.parts = pool_take(&pool, (size_t)wide.part_count, sizeof *wide.parts);
@@ -581,9 +569,10 @@ bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, cons
         for (int n = 0; n < 2 * count; n++)
             wide.parts[p].targets[r.before + n].position = coordinates[n / 2].parts[n % 2] + row;
     }
-    bool done = glb_read_buffers(&source, error) && gltf_file_gather(&file, &source, error) &&
-                gltf_find_weights(&r, error) && gltf_retarget(&r, &wide, error);
+    bool done =
+        glb_read_buffers(&source, error) && gltf_file_gather(&file, &source, error) && gltf_find_weights(&r, error);
     if (done) {
+        gltf_retarget(&r, &wide);
         json_t *extras =
             json_object_get(json_array_get(json_object_get(source.json, "meshes"), (size_t)mesh), "extras");
         json_t *known = json_object_get(extras, "wiggly");

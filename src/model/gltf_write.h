@@ -126,8 +126,8 @@ bool gltf_find_weights(struct gltf_retargeting *r, struct error *error);
 /// What the targets of the list have for weights of those before, `count` a row; in the pool's memory.
 float *gltf_convert_weights(const struct gltf_retargeting *r, const struct gltf_weights *weights);
 
-/// Gives the mesh these targets. `mesh`: how it was read. Errors: targets that cannot be read.
-bool gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mesh, struct error *error);
+/// Gives the mesh these targets. `mesh`: how it was read. Attributes that cannot be read stay as they are.
+void gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mesh);
 
 // --- meshes, their materials and pictures
 //
