@@ -13,7 +13,8 @@ struct builder {
     size_t size;
     char views[1 << 13], accessors[1 << 13], json[1 << 16];
     int view_count, accessor_count;
-    struct gltf gltf; ///< the result of read_built()
+    const char *buffers; ///< more of them, each after a comma; NULL: none
+    struct gltf gltf;    ///< the result of read_built()
 };
 
 /// A test that reads what it builds: GLTF_TEST(name) { add_data(b, …); read_built(b, members); … b->gltf … }.
@@ -95,7 +96,8 @@ static inline const char *builder_json(struct builder *b, const char *members)
                                   "\"data:application/octet-stream;base64,",
                                   b->size);
     end = append_base64(end, b->bytes, b->size);
-    sprintf(end, "\"}],\"bufferViews\":[%s],\"accessors\":[%s],%s}", b->views, b->accessors, members);
+    sprintf(end, "\"}%s],\"bufferViews\":[%s],\"accessors\":[%s],%s}", b->buffers ? b->buffers : "", b->views,
+            b->accessors, members);
     return quote(b->json);
 }
 

@@ -47,7 +47,7 @@ static void make_ball(void)
     assert_int_equal(to - triangles, 6 * ROUND * RINGS);
 }
 
-/// The ball on one bone, with a shape of its own that a clip moves. Returns the path.
+/// The ball on one bone, with a shape of its own that a clip moves by keys in a second buffer. Returns the path.
 static const char *write_ball(void)
 {
     static struct builder b;
@@ -62,7 +62,9 @@ static const char *write_ball(void)
     add_data(&b, USHORT, "SCALAR", 6 * ROUND * RINGS, triangles, sizeof triangles);
     ADD(&b, FLOAT, float, 16, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1);
     ADD(&b, FLOAT, float, 1, 0, 1, 2);
-    ADD(&b, FLOAT, float, 1, 0, 0.5f, 0.25f);
+    b.buffers = ",{'byteLength':12,'uri':'data:application/octet-stream;base64,AAAAAAAAAD8AAIA+'}"; // 0, 0.5, 0.25
+    strcat(b.views, ",{'buffer':1,'byteLength':12}");
+    add_accessor(&b, FLOAT, "SCALAR", 3, ",'bufferView':6");
     add_accessor(&b, FLOAT, "VEC3", VERTICES, ""); // a shape of zeros
     return write_built(&b, "ball.gltf",
                        "'scene':0,'scenes':[{'nodes':[0,1]}],'nodes':[{'name':'bone','translation':[0,1,0]},"
