@@ -483,7 +483,9 @@ static void make_coordinate(struct coordinate *to, struct flesh *f, const struct
 {
     const size_t rows = (size_t)f->surface.vertex_count;
     const struct swing *swing = &s->swings[from->pole];
-    double *energy = pool_take(&f->pool, (size_t)f->gltf.node_count, sizeof *energy), reach = 0;
+    double *energy = pool_take(&f->pool, (size_t)f->gltf.node_count, sizeof *energy), reach = 0, total = 0;
+    vec3s at = {0};
+    double(*middle)[3] = pool_take(&f->pool, (size_t)f->gltf.node_count, sizeof *middle);
     to->frequency = round(swing->frequency * 1e6) / 1e6;
     to->damping = round(swing->damping * 1e6) / 1e6;
     to->explained = round(fmin(from->explained, 1) * 1e6) / 1e6;
@@ -506,6 +508,7 @@ static void make_coordinate(struct coordinate *to, struct flesh *f, const struct
             int node;
             const double weight = follows(f, (int)v, k, &node);
             energy[node] += weight * squares;
+            for (int c = 0; c < 3; c++) middle[node][c] += weight * squares * (double)f->surface.position[v][c];
         }
         if (own->joints)
             gltf_blend((const float(*)[16])f->rest.joints + f->gltf.skins[f->skin].first_joint,
@@ -517,6 +520,14 @@ static void make_coordinate(struct coordinate *to, struct flesh *f, const struct
     int bone = f->bone;
     for (int n = 0; f->bone < 0 && n < f->gltf.node_count; n++)
         if (bone < 0 || energy[n] > energy[bone]) bone = n;
+    for (int n = 0; n < f->gltf.node_count; n++) { // what moves with the bone: the part, or what has most weight there
+        if (f->bone < 0 && n != bone) continue;
+        total += energy[n];
+        for (int c = 0; c < 3; c++) at.raw[c] += (float)middle[n][c];
+    }
+    at = glms_mat4_mulv3(glms_mat4_inv(mat4_from(f->rest.world[bone])),
+                         glms_vec3_scale(at, total > 0 ? (float)(1 / total) : 0), 1);
+    for (int c = 0; c < 3; c++) to->at[c] = (double)at.raw[c];
     to->bone = f->gltf.nodes[bone].name;
     print_line(stdout, "  %s: %.4g Hz, damping ratio %.3g, explains %.1f %%; %.3g m at most", to->name, to->frequency,
                to->damping, 100 * to->explained, reach);

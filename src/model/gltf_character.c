@@ -329,7 +329,8 @@ bool character_from_gltf(const struct gltf *gltf, struct character *c, struct er
         const char *bone = json_string_value(json_object_get(known, "bone"));
         coordinate->bone = bone ? strdup(bone) : NULL;
         for (i = 0; i < 3; i++)
-            coordinate->base[i] = json_number_value(json_array_get(json_object_get(known, "base"), i));
+            coordinate->base[i] = json_number_value(json_array_get(json_object_get(known, "base"), i)),
+            coordinate->at[i] = json_number_value(json_array_get(json_object_get(known, "at"), i));
         coordinate++;
     }
     made = (made && place_as_node(gltf, mesh, c)) || fail_no_memory(error, gltf->path);

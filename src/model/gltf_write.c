@@ -373,6 +373,7 @@ json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *c,
                               c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
     if (c->bone) {
         gltf_set(file, known, "base", json_pack("[f, f, f]", c->base[0], c->base[1], c->base[2]));
+        gltf_set(file, known, "at", json_pack("[f, f, f]", c->at[0], c->at[1], c->at[2]));
         gltf_set(file, known, "bone", json_string(c->bone));
     }
     if (scale != 1) gltf_set(file, known, "scale", json_real(scale));

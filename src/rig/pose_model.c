@@ -120,6 +120,10 @@ enum { MEAN_STEPS = 120 }; ///< over a clip
 
 static const double DEGREES = 57.29577951308232;
 
+/// How far a steady acceleration may pull a coordinate of flesh: 1 is as far as its shapes were seen. Clips jump between takes, and whatever a
+/// linear oscillator is thrown by there would tear the mesh.
+static const double FARTHEST = 3;
+
 struct followed {
     const struct imported *imported;
     struct gltf_pose *pose;
@@ -130,6 +134,8 @@ struct followed {
     struct chain_axes axes;
     double scale;      ///< metres in the world per unit of the file
     double base[3];    ///< of MOTION_BASE: the coordinate's numbers g,
+    vec3s at;          ///< the point of the joint that counts,
+    double most;       ///< the largest second difference,
     double carried[3]; ///< and by how much a round carries the joint on, metres per second
     double seen;       ///< last angle in degrees, so that turns continue past half a turn
     double
@@ -162,14 +168,14 @@ static double followed_at(struct followed *followed, double time)
            travelled;
 }
 
-/// Where the joint is in the clip, in the model's space without its travel, after `time`.
+/// Where the joint's point is in the clip, in the model's space without its travel, after `time`.
 static vec3s joint_at(struct followed *followed, double time)
 {
     const struct gltf *gltf = &followed->imported->gltf;
     const double into = time - followed->play.first;
     gltf_pose_loop(gltf, followed->clip, time, followed->pose);
     gltf_pose_world(gltf, followed->pose);
-    vec3s at = vec3_from(followed->pose->world[followed->node] + 12);
+    vec3s at = glms_mat4_mulv3(mat4_from(followed->pose->world[followed->node]), followed->at, 1);
     for (int k = 0; k < 3; k++) at.raw[k] -= (float)(followed->carried[k] * into);
     return at;
 }
@@ -209,7 +215,7 @@ static void sample_raw(struct smoothing *smoothing, const struct document *docum
     way = glms_mat3_mulv(rest, glms_mat3_mulv(mat3_inverse(now), way));
     double sum = 0;
     for (int k = 0; k < 3; k++) sum += followed->base[k] * (double)way.raw[k];
-    *smoothing_at(smoothing, sample) = held == sample ? sum : 0;
+    *smoothing_at(smoothing, sample) = held == sample ? fmax(-followed->most, fmin(sum, followed->most)) : 0;
 }
 
 /// Sums second differences up twice, so that the solver, which takes them again, has them: y₍ₛ₊₁₎ − 2y₍ₛ₎ + y₍ₛ₋₁₎ = dₛ, from rest. In a `loop` without
@@ -260,8 +266,12 @@ bool clip_follow(const void *context, const struct document *document, const str
         memset(samples, 0, (size_t)document_samples(document) * sizeof *samples);
         return true;
     }
-    if (motion->of == MOTION_BASE)
-        memcpy(followed.base, imported->figure.character.coordinates[soft].base, sizeof followed.base);
+    if (motion->of == MOTION_BASE) {
+        const struct coordinate *c = &imported->figure.character.coordinates[soft];
+        memcpy(followed.base, c->base, sizeof followed.base);
+        for (int k = 0; k < 3; k++) followed.at.raw[k] = (float)c->at[k];
+        followed.most = FARTHEST * pow(2 * M_PI * c->frequency * document_step(document), 2);
+    }
     const int substeps = document->substeps;
     struct smoothing smoothing = {.substeps = substeps};
     const struct clip_play *play = &followed.play;
