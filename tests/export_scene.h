@@ -28,6 +28,7 @@ static inline struct opened open_scene(const char *path)
     scene.document = document_of_file(path);
     document_set_path(scene.document, path);
     assert_done(models_update(scene.models, scene.document, &error));
+    scene.evaluation.models = models_source(scene.models);
     evaluation_update(&scene.evaluation, scene.document, false);
     return scene;
 }

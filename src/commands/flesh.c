@@ -520,7 +520,8 @@ static void make_coordinate(struct coordinate *to, struct flesh *f, const struct
     int bone = f->bone;
     for (int n = 0; f->bone < 0 && n < f->gltf.node_count; n++)
         if (bone < 0 || energy[n] > energy[bone]) bone = n;
-    for (int n = 0; n < f->gltf.node_count; n++) { // what moves with the bone: the part, or what has most weight there
+    for (int n = 0; n < f->gltf.node_count;
+         n++) { // what moves with the bone: the part, or what has most weight there
         if (f->bone < 0 && n != bone) continue;
         total += energy[n];
         for (int c = 0; c < 3; c++) at.raw[c] += (float)middle[n][c];

@@ -31,9 +31,9 @@ struct coordinate {
     double pca1, pca2; ///< shares that the first and the first two real principal components explain, 0 … 1
     double base[3]; ///< g: x'' + 2ζω x' + ω² x = −g·a for Re x where the base accelerates by a, in m/s² along
                     ///< the model's axes
-    double at[3];   ///< the point of the bone, along its own axes, whose acceleration that is: the middle of the flesh
-    char *bone;     ///< the bone that is its base; NULL: none is known
-    double most;    ///< the largest |z| that the curves are known for; beyond it they go on as straight as they can
+    double at[3]; ///< the point of the bone, along its own axes, whose acceleration that is: the middle of the flesh
+    char *bone;   ///< the bone that is its base; NULL: none is known
+    double most;  ///< the largest |z| that the curves are known for; beyond it they go on as straight as they can
     union {
         struct {
             float (*re)[3];             ///< Re Ñ, metres a unit of the spline, per vertex
