@@ -17,8 +17,8 @@ packages_of() {
         "fonts-jetbrains-mono|fonts-dejavu-core" ;;
     bare) echo debootstrap ;;
     whole) # what parts of the suite are skipped without; Debian's npm, with hundreds of packages, only where there is no other
-        echo ffmpeg weston cmake assimp-testmodels assimp-utils minetest-data minetest-mod-maidroid libdraco-dev libmeshoptimizer-dev gcc-mingw-w64-x86-64 gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
-            qemu-user brotli "chromium|" "firefox-esr|" "$(command -v npm >/dev/null || echo nodejs npm)" ;;
+        echo ffmpeg weston cmake assimp-testmodels assimp-utils libdraco-dev libmeshoptimizer-dev gcc-mingw-w64-x86-64 gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
+            qemu-user brotli "minetest-data|" "minetest-mod-maidroid|" "chromium|" "firefox-esr|" "$(command -v npm >/dev/null || echo nodejs npm)" ;;
     *)
         echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang, web, bare and whole" >&2
         exit 2
