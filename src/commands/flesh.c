@@ -314,16 +314,15 @@ static bool shake(struct shakes *s, struct flesh *f, struct shaking *by, struct 
     const float(*rest)[3] = (const float(*)[3])f->surface.position;
     const size_t vertices = (size_t)f->surface.vertex_count;
     double(*x)[3] = pool_take(&s->pool, (size_t)soft->body.node_count + 1, sizeof *x);
-    bool done = true;
     s->frames = shaking_frames(by);
     s->vertices = f->surface.vertex_count;
     if (!need_has_room(3 * (size_t)s->frames * vertices * sizeof *rest)) return fail_no_memory(error, by->name);
-    for (int axis = 0; done && axis < 3; axis++) {
+    for (int axis = 0; axis < 3; axis++) {
         struct record record;
         for (int c = 0; c < 3; c++) by->drive.direction[c] = c == axis;
-        done = record_create(&record, by, soft, error);
+        if (!record_create(&record, by, soft, error)) return false;
         s->motion[axis] = pool_take(&s->pool, (size_t)s->frames * vertices, sizeof **s->motion);
-        for (int t = 0; done && t < s->frames; t++) {
+        for (int t = 0; t < s->frames; t++) {
             float(*at)[3] = s->motion[axis] + (size_t)t * vertices;
             memcpy(at, rest, vertices * sizeof *at);
             record_embed(&record, t, soft, (const double[3]){0}, x, at);
@@ -333,12 +332,11 @@ static bool shake(struct shakes *s, struct flesh *f, struct shaking *by, struct 
                 s->power += way * way;
             }
         }
-        if (!done) break;
         free(record.place);
         if (record.left >= 0) // the other shakes need about the same steps
             by->substeps = 4 * record.left < by->accuracy ? (record.substeps + 1) / 2 : record.substeps;
     }
-    return done;
+    return true;
 }
 
 /// Finds the poles of each shake; those with about the same frequency become one.
@@ -464,9 +462,8 @@ static void find_coordinates(struct shakes *s, const struct shaking *by)
         for (int e = 0; e < 3; e++) {
             struct candidate *to = &s->candidates[s->count];
             const double *v = vectors + 3 * e;
-            const int axis = fabs(v[0]) >= fabs(v[1])   ? fabs(v[0]) >= fabs(v[2]) ? 0 : 2
-                             : fabs(v[1]) >= fabs(v[2]) ? 1
-                                                        : 2;
+            int axis = 0; // the longest
+            for (int c = 1; c < 3; c++) axis = fabs(v[c]) > fabs(v[axis]) ? c : axis;
             *to = (struct candidate){.pole = p, .scale = largest};
             for (int c = 0; c < 3; c++) to->direction[c] = copysign(1, v[axis]) * v[c];
             const double left = error_left(s, to, 1);
