@@ -760,10 +760,14 @@ static void build_soft(struct inspector *in)
         if (!c) {
             ui_paragraph(&in->ui, "The model has no such channel.", theme()->text_dim);
         } else if (c->frequency > 0) {
-            snprintf(text, sizeof text,
-                     "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion; without phases (real PCA) "
-                     "one component explains %.0f %%, two %.0f %%.",
-                     c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
+            const int said =
+                snprintf(text, sizeof text, "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion",
+                         c->frequency, c->damping, 100 * c->explained);
+            if (c->pca1 > 0)
+                snprintf(text + said, sizeof text - (size_t)said,
+                         "; without phases (real PCA) one component explains %.0f %%, two %.0f %%", 100 * c->pca1,
+                         100 * c->pca2);
+            strcat(text, ".");
             ui_paragraph(&in->ui, text, theme()->text_dim);
         }
     }

@@ -508,7 +508,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
     if (!spline->parameter[parameter].motion) return;
 
     static const struct ui_choice motions[] = {[MOTION_TURN] = {"turn", "Turn"},
-                                               [MOTION_ACROSS] = {"across", "Across"},
+                                               [MOTION_ACROSS] = {"across", "Side"},
                                                [MOTION_UP] = {"up", "Up"},
                                                [MOTION_BASE] = {"base", "Base"}};
     static const struct row part = {NAMED("joint.of", "joint's"),
