@@ -427,7 +427,8 @@ static const char *const scenes[][2] = {
     {"beast.json",
      "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"wag\", \"frequency\": 1, \"knots\": "
      "[{\"frame\": 0, \"value\": 1}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"beast\", \"model\": "
-     "\"beast.glb\", \"clip\": \"Walk\"}, {\"type\": \"chain\", \"name\": \"tail\", \"model\": \"beast\", "
+     "\"beast.glb\", \"clip\": \"Walk\", \"coordinates\": [{\"name\": \"belly\", \"spline\": \"wag\"}]}, {\"type\": "
+     "\"chain\", \"name\": \"tail\", \"model\": \"beast\", "
      "\"from\": \"tail_1\", \"to\": \"tail_8\", \"channels\": [{\"spline\": \"wag\", \"axis\": \"side\", "
      "\"gain\": {\"ramp\": [[0, 4], [0.5, 9], [1, 12]]}}]}]}"},
     {"long.json", "{\"wiggly\": 1, \"frames\": [0, 3000], \"splines\": [{\"name\": \"s\", \"start\": \"loop\", "
@@ -464,7 +465,7 @@ static int make_files(void **state)
     for (int i = 0; i < character.vertex_count; i++) character.coordinates[0].re[i][1] = 0.2f;
     assert_done(character_write("puppet.glb", &character, true, &error));
     character_free(&character);
-    assert_true(beast_write("beast.glb"));
+    assert_true(beast_write_as("beast.glb", true));
     for (int i = 0; i < 7; i++) {
         if (i < 6) restore(good[i]);
         files.good[files.good_count++] = good[i];

@@ -354,12 +354,12 @@ static struct stage_model mapped(const struct imported *imported, int axis)
     return model;
 }
 
-static void draw_all(const struct stage_model *models, int count, struct shot *out)
+static void draw_all(const struct stage_model *shown_models, int count, struct shot *out)
 {
     const float lo[3] = {-1, 0, -1}, hi[3] = {1, 1.5f, 1};
     if (!platform) skip();
     look_at(&view, lo, hi, out);
-    memcpy(view.models, models, (size_t)count * sizeof *models);
+    memcpy(view.models, shown_models, (size_t)count * sizeof *shown_models);
     view.model_count = count;
     shoot(&view, out);
 }
