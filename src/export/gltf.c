@@ -392,10 +392,11 @@ static void cut_sampler(struct gltf_file *file, const struct glb *source, json_t
                                                  [16] = ELEMENTS_MATRICES};
     const char *interpolation = json_string_value(json_object_get(sampler, "interpolation"));
     struct glb_numbers times = {0}, values = {0};
-    struct error error;
+    struct error error = {0};
     bool good = gltf_file_numbers(file, source, glb_integer(sampler, "input", -1), &times, &error) &&
                 gltf_file_numbers(file, source, glb_integer(sampler, "output", -1), &values, &error) &&
                 times.components == 1 && times.count > 0;
+    file->without_memory |= error.kind == ERROR_ENVIRONMENT;
     struct pool pool = {0};
     struct gltf_channel unrolled, result,
         own = {.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};

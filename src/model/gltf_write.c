@@ -477,10 +477,11 @@ static json_t *make_target(const struct gltf_retargeting *r, const struct gltf_r
     json_object_foreach(is_new || wanted->scale == 1 ? NULL : kept, name, accessor)
     {
         struct glb_numbers numbers;
-        struct error error;
-        if (!json_is_integer(accessor) ||
-            !gltf_file_numbers(r->file, r->source, json_integer_value(accessor), &numbers, &error))
-            continue;
+        struct error error = {0};
+        const bool is_read = json_is_integer(accessor) &&
+                             gltf_file_numbers(r->file, r->source, json_integer_value(accessor), &numbers, &error);
+        r->file->without_memory |= error.kind == ERROR_ENVIRONMENT;
+        if (!is_read) continue;
         float *from = need((size_t)numbers.count, (size_t)numbers.components * sizeof *from);
         for (int n = 0; n < numbers.count * numbers.components; n++) from[n] = (float)numbers.values[n];
         if (numbers.components == 3) add_offsets(r, own, name, from, (size_t)numbers.count, wanted->scale);

@@ -529,8 +529,8 @@ def phone(browser, url):
     expect(look(page, PANELS) > 2000, 'F1 shows all keys')
     swipe(page, (195, 500), (0, -200))
     expect(look(page, PANELS) > 2000, 'a finger scrolls them')
-    swipe(page, (195, 500))
-    until('a tap that hides them', lambda: look(page, PANELS) == 0 and page.evaluate(same))
+    swipe(page, (300, 782))
+    until('a tap beside them that hides them', lambda: look(page, PANELS) == 0 and page.evaluate(same))
     expect(not (found := page.problems()), f'the console says {found}')
     page.close()
 
