@@ -322,7 +322,7 @@ struct ply {
     struct element elements[ELEMENTS_MAX];
     int element_count;
     long vertex_count; ///< in the file; its faces may come first
-    bool textured;     ///< vertices have texture coordinates
+    bool textured;     ///< all vertices have texture coordinates
     struct surface_builder *builder;
 };
 
@@ -431,7 +431,7 @@ static bool ply_read_one(struct ply *ply, const struct element *e)
                         b->surface->vertex_count, *wrong);
         builder_color(b, values + RED);
     }
-    if (e->has[U] && e->has[V]) builder_uv(b, values[U], 1 - values[V]);
+    if (ply->textured) builder_uv(b, values[U], 1 - values[V]);
     return true;
 }
 
@@ -497,8 +497,8 @@ static bool ply_read(struct words *w, struct surface_builder *builder)
     for (int i = 0; i < ply.element_count; i++) {
         const struct element *e = &ply.elements[i];
         if (!e->vertices) continue;
+        ply.textured = (ply.textured || ply.vertex_count == 0) && e->has[U] && e->has[V];
         ply.vertex_count += e->count;
-        ply.textured = e->has[U] && e->has[V];
     }
     for (int i = 0; i < ply.element_count; i++) {
         const struct element *e = &ply.elements[i];

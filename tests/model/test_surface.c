@@ -107,6 +107,10 @@ static const struct file good[] = {
          "property float s\nproperty float t\nelement tristrips 1\n" LIST
          "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n1 1 0 1 1\n8 0 1 2 3 -1 0 1 2\n",
      "vertices 4 indices 0 1 2 2 1 3 0 1 2"},
+    {"half_textured.ply",
+     PLY "element vertex 1\n" XYZ "element vertex 2\n" XYZ "property float s\nproperty float t\n" FACE
+         "0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n",
+     "vertices 3 indices 0 1 2 uv"},
     {"repeats.ply", PLY THREE_OF_PLY "face 2" THREE_PLACES "3 0 1 0\n3 0 1 2\n", "vertices 3 indices 0 1 2"},
     {"strip_repeats.ply", PLY THREE_OF_PLY "tristrips 1" THREE_PLACES "6 0 0 0 1 2 2\n", "vertices 3 indices 0 1 2"},
     {"merged.stl",
