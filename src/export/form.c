@@ -209,7 +209,7 @@ static const struct form_kind soft_form = {FORM_MESH | FORM_POINTS, character_op
 const struct gltf *form_gltf(const struct rig_pose *pose, struct pool *pool)
 {
     const struct figure *figure = pose->model.figure;
-    if (!figure || figure->version <= 1) return pose->model.gltf;
+    if (!figure || !figure_is_painted(figure)) return pose->model.gltf;
     struct gltf *painted = pool_take(pool, 1, sizeof *painted);
     *painted = *pose->model.gltf;
     const struct character *c = &figure->character;
@@ -278,10 +278,7 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
         form->target_count = mesh->target_count;
         form->targets = pool_take(&form->pool, (size_t)mesh->target_count, sizeof *form->targets);
         for (int t = 0; t < mesh->target_count; t++) {
-            char number[32];
-            snprintf(number, sizeof number, "target_%d", t);
-            const char *name = gltf_target_name(mesh, t);
-            form->targets[t].figure.name = pool_text(&form->pool, name ? name : number, "", "");
+            form->targets[t].figure.name = gltf_target_label(mesh, t, &form->pool);
             form->targets[t].group = -1 - t;
         }
         for (int k = 0; k < c->coordinate_count; k++) {

@@ -695,7 +695,7 @@ static bool put_targets(const struct export_range *range, struct form *form, str
                         struct glb *source, struct error *error)
 {
     const struct model_body *body = form->owned;
-    const bool is_painted = body->figure->version > 1;
+    const bool is_painted = figure_is_painted(body->figure);
     struct gltf_retargeting r = {.file = file,
                                  .source = source,
                                  .pool = &form->pool,

@@ -830,11 +830,8 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
     for (int n = 0; done && n < gltf->node_count; n++) {
         const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
         for (int t = 0; mesh && t < mesh->target_count; t++) {
-            char numbered[32];
-            const char *name = gltf_target_name(mesh, t);
-            snprintf(numbered, sizeof numbered, "target_%d", t);
             struct usda_shape *shape = &model->shapes[gltf->nodes[n].first_weight + t];
-            shape->token = names_add(&model->shape_tokens, name ? name : numbered);
+            shape->token = names_add(&model->shape_tokens, gltf_target_label(mesh, t, pool));
             shape->prim = usda_name(&model->shape_prims, shape->token, false);
         }
     }

@@ -72,7 +72,6 @@ struct character {
     struct coordinate *coordinates;
     int coordinate_count;
     int node;        ///< the first that shows its mesh in its file; −1: none
-    bool is_moved;   ///< `moved` does something
     float moved[16]; ///< from the mesh to the model at rest: the node's matrix, or its skin's first joint's
 };
 

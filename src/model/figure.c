@@ -293,6 +293,7 @@ struct carried {
     const float *weights;
     const float (*joints)[16]; ///< NULL: it has no skin
     mat4s back;                ///< from where a vertex is at rest to the mesh
+    bool is_moved;             ///< that is not 1
     mat4s all;                 ///< of vertices without joints
     bool turns;                ///< it is not always 1
     bool has_way;              ///< targets that are no coordinate's move vertices
@@ -317,7 +318,8 @@ static struct carried carried_of(const struct model_pose *model)
     carried.weights = model->pose->weights + node->first_weight;
     if (node->skin >= 0) carried.joints = model->pose->joints + model->gltf->skins[node->skin].first_joint;
     const float *world = model->pose->world[c->node];
-    if (c->is_moved) carried.back = glms_mat4_inv(mat4_from(c->moved));
+    carried.is_moved = memcmp(&carried.back, c->moved, sizeof c->moved) != 0;
+    if (carried.is_moved) carried.back = glms_mat4_inv(mat4_from(c->moved));
     carried.turns = memcmp(world, c->moved, sizeof c->moved) != 0;
     if (carried.turns) carried.all = glms_mat4_mul(mat4_from(world), carried.back);
     for (int t = 0; t < carried.mesh->target_count; t++) carried.has_way |= is_other(&carried, c, t);
@@ -334,12 +336,12 @@ static void carry(const struct carried *carried, const struct model_pose *model,
         if (position && is_other(carried, c, t))
             *way = glms_vec3_add(*way, glms_vec3_scale(vec3_from(position[at]), carried->weights[t]));
     }
-    if (carried->has_way && c->is_moved) *way = glms_mat4_mulv3(mat4_from(c->moved), *way, 0.0f);
+    if (carried->has_way && carried->is_moved) *way = glms_mat4_mulv3(mat4_from(c->moved), *way, 0.0f);
     *matrix = carried->all;
     if (!carried->joints || !part->joints) return;
     float blended[16];
     gltf_blend(carried->joints, part->joints[at], part->weights[at], blended);
-    *matrix = c->is_moved ? glms_mat4_mul(mat4_from(blended), carried->back) : mat4_from(blended);
+    *matrix = carried->is_moved ? glms_mat4_mul(mat4_from(blended), carried->back) : mat4_from(blended);
 }
 
 /// Goes on to the part of a vertex, from the one of an earlier vertex. `first` is the part's first vertex.

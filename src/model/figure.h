@@ -39,6 +39,9 @@ struct figure {
     uint64_t version; ///< grows whenever coordinates and slopes change; 0: they never do
 };
 
+/// Whether paint has ever changed it: it is not as its file has it.
+static inline bool figure_is_painted(const struct figure *figure) { return figure->version > 1; }
+
 /// Whether there is memory for the figure of a character of the size that a file claims.
 bool figure_has_room(const struct character *character);
 

@@ -186,6 +186,8 @@ bool gltf_is_soft(const struct gltf *gltf);
 
 /// The name of a morph target, from the places where exporters put it; NULL: none.
 const char *gltf_target_name(const struct gltf_mesh *mesh, int target);
+/// The same, or "target_3"; the memory is the pool's.
+char *gltf_target_label(const struct gltf_mesh *mesh, int target, struct pool *pool);
 
 /// Decodes a PNG or JPEG into at most `most` bytes of pixels, which the caller frees. False with a sentence that names no file.
 bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,

@@ -241,9 +241,9 @@ static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh,
     c->node = node;
     memcpy(c->moved, skin < 0 ? rest.world[node] : rest.joints[gltf->skins[skin].first_joint], sizeof c->moved);
     gltf_pose_free(&rest);
-    for (int n = 0; n < 16; n++) c->is_moved = c->is_moved || c->moved[n] != (n % 5 == 0);
     mat4s m = mat4_from(c->moved);
-    if (!c->is_moved) return true;
+    const mat4s still = glms_mat4_identity();
+    if (memcmp(&m, &still, sizeof m) == 0) return true;
     for (int i = 0; i < c->vertex_count; i++) {
         glm_mat4_mulv3(m.raw, c->position[i], 1, c->position[i]);
         gltf_turn_normal((const float *)m.raw, c->normal[i]);

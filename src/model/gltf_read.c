@@ -905,6 +905,14 @@ const char *gltf_target_name(const struct gltf_mesh *mesh, int target)
     return mesh->target_names ? mesh->target_names[target] : NULL;
 }
 
+char *gltf_target_label(const struct gltf_mesh *mesh, int target, struct pool *pool)
+{
+    char number[32];
+    const char *name = gltf_target_name(mesh, target);
+    snprintf(number, sizeof number, "target_%d", target);
+    return pool_text(pool, name ? name : number, "", "");
+}
+
 int gltf_vertex_count(const struct gltf *gltf, int node)
 {
     const struct gltf_mesh *mesh = gltf->nodes[node].mesh >= 0 ? &gltf->meshes[gltf->nodes[node].mesh] : NULL;

@@ -527,10 +527,7 @@ void gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mes
 
     json_t *extras = json_object_get(json, "extras");
     if (!json_is_object(extras)) gltf_set(file, json, "extras", extras = json_object());
-    for (int t = 0; t < r->count; t++) {
-        const char *name = r->list[t].name;
-        gltf_append(file, names, name ? json_string(name) : json_sprintf("target %d", t));
-    }
+    for (int t = 0; t < r->count; t++) gltf_append(file, names, json_string(r->list[t].name));
     gltf_set(file, extras, "targetNames", names);
     put_weights(r, json);
     json_array_foreach(json_object_get(r->source->json, "nodes"), p, node)
@@ -558,7 +555,7 @@ bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, cons
     r.count = r.before + 2 * count;
     r.list = pool_take(&pool, (size_t)r.count, sizeof *r.list);
     for (int t = 0; t < r.before; t++)
-        r.list[t] = (struct gltf_retarget){.source = t, .scale = 1, .name = gltf_target_name(&wide, t)};
+        r.list[t] = (struct gltf_retarget){.source = t, .scale = 1, .name = gltf_target_label(&wide, t, r.pool)};
     for (int n = 0; n < 2 * count; n++) {
         const struct coordinate *of = &coordinates[n / 2];
         const char *name = pool_text(&pool, of->name, coordinate_endings[n % 2], "");

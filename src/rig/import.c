@@ -101,16 +101,15 @@ static bool fit_to_clip(struct document *document, int rig, const struct gltf_cl
     return true;
 }
 
-/// A new spline for a coordinate, with its frequency and damping by numbers that one would write, and a knot so that it swings at once.
-static bool add_swing(struct document *document, const struct coordinate *coordinate, struct error *error)
+/// Appends a spline with a frequency and a damping ratio, where they are known.
+static bool add_spline(struct document *document, const char *name, const struct knot *knot, double hertz,
+                       double ratio, struct error *error)
 {
-    const struct knot start = {.frame = document->first_frame, .value = 0.5};
-    const struct param frequency = param_number(round(coordinate->frequency * 100) / 100),
-                       damping = param_number(round(coordinate->damping * 1000) / 1000);
+    const struct param frequency = param_number(hertz), damping = param_number(ratio);
     const int spline = document->spline_count;
-    return edit_spline_add(document, -1, NULL, &start, error) &&
-           (!(frequency.value > 0) || edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error)) &&
-           (!(damping.value > 0) || edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error));
+    return edit_spline_add(document, -1, name, knot, error) &&
+           (!(hertz > 0) || edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error)) &&
+           (!(ratio > 0) || edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error));
 }
 
 /// Lets flesh hang on its bones: each coordinate that has one gets a spline that follows it in the clip. The model is the document's last rig.
@@ -125,8 +124,6 @@ static bool hang_flesh(struct document *document, const struct character *soft, 
     changed.model.drive_count = 0;
     for (int i = 0; done && i < soft->coordinate_count && changed.model.drive_count < MODEL_MAX_DRIVES; i++) {
         const struct coordinate *coordinate = &soft->coordinates[i];
-        const struct param frequency = param_number(coordinate->frequency),
-                           damping = param_number(coordinate->damping);
         const int spline = document->spline_count;
         if (!coordinate->bone || !(coordinate->frequency > 0)) continue;
         drives[changed.model.drive_count++] =
@@ -137,9 +134,7 @@ static bool hang_flesh(struct document *document, const struct character *soft, 
                                       .of = MOTION_BASE,
                                       .gain = 1};
         const struct param equilibrium = {.track = -1, .motion = &motion};
-        done = edit_spline_add(document, -1, coordinate->name, NULL, error) &&
-               edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error) &&
-               edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error) &&
+        done = add_spline(document, coordinate->name, NULL, coordinate->frequency, coordinate->damping, error) &&
                edit_parameter(document, spline, PARAMETER_EQUILIBRIUM, &equilibrium, error);
     }
     return done && (document->spline_count == first ||
@@ -177,8 +172,12 @@ bool import_add(struct document *document, const char *path, int spline, struct 
     const bool is_empty = document->spline_count == 0 && document->rig_count == 0;
     bool added = !is_empty || (soft && !clip) || set_range(document, &rig.model, clip, error);
     drive.spline = spline >= 0 ? spline : document->spline_count;
-    added = added && (!soft || spline >= 0 || add_swing(document, soft, error)) &&
-            edit_rig_add(document, &rig, error) &&
+    if (added && soft && spline < 0) { // by numbers that one would write, and it swings at once
+        const struct knot start = {.frame = document->first_frame, .value = 0.5};
+        added = add_spline(document, NULL, &start, round(soft->frequency * 100) / 100,
+                           round(soft->damping * 1000) / 1000, error);
+    }
+    added = added && edit_rig_add(document, &rig, error) &&
             (!hangs || hang_flesh(document, &imported.figure.character, clip, error));
     imported_free(&imported);
     return added;
@@ -298,15 +297,14 @@ static bool plan_set(const struct plan *plan, int spline, enum parameter paramet
 }
 
 /// Appends a spline for one axis.
-static bool add_spline(const struct plan *plan, const char *axis, struct error *error)
+static bool add_axis(const struct plan *plan, const char *axis, struct error *error)
 {
     char *name;
     const int spline = plan->document->spline_count;
     if (asprintf(&name, "%s %s", plan->chain, axis) < 0) need_failed();
-    const bool added = edit_spline_add(plan->document, spline, name, NULL, error);
+    const bool added = add_spline(plan->document, name, NULL, plan->frequency, plan->damping, error);
     free(name);
-    return added && plan_set(plan, spline, PARAMETER_FREQUENCY, param_number(plan->frequency), error) &&
-           plan_set(plan, spline, PARAMETER_DAMPING, param_number(plan->damping), error) &&
+    return added &&
            plan_set(plan, spline, PARAMETER_START, param_number(plan->loops ? WIGGLY_LOOP : WIGGLY_REST), error);
 }
 
@@ -422,7 +420,7 @@ bool chain_make(struct document *document, const struct models *models, const st
         }
         chain.channels = channels;
         chain.channel_count = 2;
-        done = add_spline(&plan, "side", error) && add_spline(&plan, "up", error);
+        done = add_axis(&plan, "side", error) && add_axis(&plan, "up", error);
     }
     const struct rig contents = {.kind = RIG_CHAIN, .name = plan.chain, .chain = chain};
     *rig = document->rig_count;

@@ -103,9 +103,10 @@ static bool model_find(const struct posing *posing, const struct pin_query *quer
     const struct figure *figure = models_figure(posing->models, document, query->rig);
     if (!figure || vertex >= figure->character.vertex_count) return false;
     const struct gltf *gltf = &models_imported(posing->models, document, query->rig)->gltf;
-    const float *of = posing_clip(posing, query->rig, sample, POSE_UNSEEN)->weights;
-    const struct morph clip = figure_morph(figure, of + gltf->nodes[figure->character.node].first_weight);
-    if (!rig_pose(posing, query->rig, sample, NULL, &posed)) return false;
+    struct gltf_pose *pose = posing_clip(posing, query->rig, sample, POSE_UNSEEN);
+    const float *of = pose->weights + gltf->nodes[figure->character.node].first_weight;
+    const struct morph clip = figure_morph(figure, of);
+    posing_bend(posing, query->rig, sample, NULL, pose, &posed);
     *point = (struct pin_point){.is_linear = read == rint(read)}; // in x of that sample
     for (int r = -1; (r = document_next_chain(document, query->rig, r)) >= 0;) {
         for (int i = 0; i < query->count; i++)

@@ -64,18 +64,13 @@ void posing_root(const struct posing *posing, int rig, const struct by_hand *by_
     root[10] -= model->scale * (double)imported->gltf.lo[1];
 }
 
-bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                   struct rig_pose *posed)
+void posing_bend(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                 struct gltf_pose *pose, struct rig_pose *posed)
 {
     const struct document *document = posing->document;
-    const enum rig_kind kind = document->rigs[rig]->kind;
-    if (kind == RIG_TAIL) return tail_pose(posing, rig, position, by_hand, NULL, posed);
-    if (kind != RIG_MODEL) return rig_pose(posing, rig, position, by_hand, posed);
-    struct gltf_pose *pose = posing_clip(posing, rig, position, posing->memory);
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
     double root[12];
-    if (!pose) return false;
     for (int r = 0; r < document->rig_count; r++) {
         if (!strand_find(posing, rig, r, &strand)) continue;
         posing_values(posing, r, position, NULL, values);
@@ -97,7 +92,17 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
         posed->model.morph = figure_morph(figure, weights);
     }
     for (int k = 0; k < 16; k++) posed->model.root[k] = k % 4 == 3 ? k == 15 : (float)root[3 * (k / 4) + k % 4];
-    return true;
+}
+
+bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                   struct rig_pose *posed)
+{
+    const enum rig_kind kind = posing->document->rigs[rig]->kind;
+    if (kind == RIG_TAIL) return tail_pose(posing, rig, position, by_hand, NULL, posed);
+    if (kind != RIG_MODEL) return rig_pose(posing, rig, position, by_hand, posed);
+    struct gltf_pose *pose = posing_clip(posing, rig, position, posing->memory);
+    if (pose) posing_bend(posing, rig, position, by_hand, pose, posed);
+    return pose;
 }
 
 static void model_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])

@@ -118,6 +118,10 @@ struct posing_functions {
 /// The places of its bones in its clip alone, or at rest, in the given memory; NULL if there is no model.
 struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, enum pose_memory memory);
 
+/// Bends, moves and places a model on top of its clip's pose, as rig_pose_body() does.
+void posing_bend(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                 struct gltf_pose *pose, struct rig_pose *posed);
+
 /// The place of a character: columns and place of its space in the world.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);
 

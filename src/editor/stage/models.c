@@ -63,17 +63,16 @@ struct stage_model *models_show(struct stage_view *view, const struct rig_pose *
     return shown;
 }
 
-/// The distance between a character and its clip alone.
-static float model_aside(const struct core *core, int n)
+float models_aside(const struct core *core, int rig)
 {
-    const int rig = document_find_rig(core->document, RIG_MODEL, n);
-    const struct imported *imported = models_imported(core->models, core->document, rig);
+    const bool is_model = core->document->rigs[rig]->kind == RIG_MODEL;
+    const struct imported *imported = is_model ? models_imported(core->models, core->document, rig) : NULL;
     if (!core->view.on[SWITCH_ORIGINAL] || !imported) return 0.0f;
     const float *lo = imported->gltf.lo, *hi = imported->gltf.hi;
     return ASIDE * (float)core->document->rigs[rig]->model.scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
 }
 
-static void pose_model(struct stage *stage, const struct core *core, int rig, int n)
+static void pose_model(struct stage *stage, const struct core *core, int rig)
 {
     struct stage_view *view = &stage->view;
     struct posing posing = stage_posing_by_hand(stage);
@@ -113,7 +112,7 @@ static void pose_model(struct stage *stage, const struct core *core, int rig, in
     posing = (struct posing){.document = core->document, .models = core->models, .memory = POSE_BESIDE};
     if (!core->view.on[SWITCH_ORIGINAL] || view->model_count == STAGE_MAX_MODELS) return;
     if (!rig_pose_body(&posing, rig, core->view.playback.position, NULL, &posed)) return;
-    const float by = model_aside(core, n);
+    const float by = models_aside(core, rig);
     shown = &view->models[view->model_count++];
     *shown = shown[-1];
     shown->rig = -1;
@@ -125,7 +124,7 @@ static void pose_model(struct stage *stage, const struct core *core, int rig, in
     add_shadows(view, shown, &posed.imported->skeleton);
 }
 
-static uint64_t hash_models(uint64_t sum, const struct stage_view *view)
+uint64_t models_hash(uint64_t sum, const struct stage_view *view)
 {
     for (int m = 0; m < view->model_count; m++) {
         const struct stage_model *shown = &view->models[m];
@@ -146,8 +145,7 @@ static uint64_t hash_models(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind model_stage = {
-    .pose = pose_model, .bound_steps = BOUND_STEPS, .aside = model_aside, .hash = hash_models};
+const struct stage_kind model_stage = {.pose = pose_model, .bound_steps = BOUND_STEPS};
 
 void skin_free(struct skin *skin)
 {

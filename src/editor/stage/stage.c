@@ -288,7 +288,7 @@ double stage_along(double across, double up, double dx, double dy)
 /// FROM_BEHIND off straight behind, which shows tail and ears.
 static const float AZIMUTH = -1.13f, FROM_BEHIND = 0.87f;
 
-/// The order of posing, hashing and drawing.
+/// The order of posing and drawing.
 #define STAGE_ROW(constant, name) [constant] = &name##_stage,
 static const struct stage_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(STAGE_ROW)};
 #undef STAGE_ROW
@@ -313,7 +313,7 @@ void stage_fit(struct stage *stage, struct core *core)
             struct rig_pose posed;
             float low[3], high[3];
             if (!rig_pose(&posing, r, last * step / kind->bound_steps, NULL, &posed)) break;
-            const float aside = kind->aside ? kind->aside(core, document_rig_number(document, r)) : 0.0f;
+            const float aside = models_aside(core, r);
             rig_bounds(&posed, low, high);
             for (int k = 0; k < 3; k++) {
                 lo[k] = fminf(lo[k], low[k] - (k == 0 ? aside : 0.0f));
@@ -382,10 +382,8 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     stage->tail_count = view->model_count = view->blob_count = 0;
     stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
-        int n = 0;
-        for (int rig = -1; (rig = document_next_rig(document, (enum rig_kind)kind, rig)) >= 0;) {
-            kinds[kind]->pose(stage, core, rig, n++);
-        }
+        for (int rig = -1; (rig = document_next_rig(document, (enum rig_kind)kind, rig)) >= 0;)
+            kinds[kind]->pose(stage, core, rig);
     }
     view->has_tail = stage->tail_count > 0;
     view->viewport = core->view.layout.stage;
@@ -394,9 +392,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     camera_reshape(&core->view.camera, view->viewport.w / view->viewport.h);
     camera_matrices(&core->view.camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = stage_scenery_hash(view);
-    for (int kind = 0; kind < RIG_KINDS; kind++) {
-        if (kinds[kind]->hash) view->hash = kinds[kind]->hash(view->hash, view);
-    }
+    view->hash = models_hash(view->hash, view);
     view->hash = hash_bytes(view->hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
     skin_reserve(stage);
     brush_pose(stage, core, covered);

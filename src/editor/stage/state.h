@@ -209,16 +209,11 @@ struct stage {
     struct painting painting;
 };
 
-/// `rig` is the index in the document, `n` the number within its kind.
 struct stage_kind {
-    /// Poses it into the stage view, with its shadow.
-    void (*pose)(struct stage *stage, const struct core *core, int rig, int n);
+    /// Poses a rig of the document into the stage view, with its shadow.
+    void (*pose)(struct stage *stage, const struct core *core, int rig);
     /// Number of samples for the bounding box of its motion; 0: it has none.
     int bound_steps;
-    /// Extra width on both sides in metres, or NULL.
-    float (*aside)(const struct core *core, int n);
-    /// Hash of all of this kind in the view. NULL: another kind's hash includes them.
-    uint64_t (*hash)(uint64_t hash, const struct stage_view *view);
 };
 
 /// tail_stage …
@@ -260,6 +255,10 @@ double stage_along(double across, double up, double dx, double dy);
 /// A soft character as shown, by its rig. NULL if not shown.
 const struct stage_model *stage_soft_shown(const struct stage *stage, int rig);
 
+/// The distance between a character and its clip alone, metres; 0: that is not shown. Of other rigs 0.
+float models_aside(const struct core *core, int rig);
+/// Hash of all models in the view.
+uint64_t models_hash(uint64_t hash, const struct stage_view *view);
 /// Shows a character, or a tail's fox. NULL if the view is full.
 struct stage_model *models_show(struct stage_view *view, const struct rig_pose *posed);
 

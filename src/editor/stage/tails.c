@@ -66,12 +66,11 @@ bool strand_pose(const struct stage *stage, const struct core *core, int rig, do
     return rig_pose(&posing, rig, position, &hand, pose);
 }
 
-static void pose_tail(struct stage *stage, const struct core *core, int rig, int n)
+static void pose_tail(struct stage *stage, const struct core *core, int rig)
 {
     struct stage_view *view = &stage->view;
     struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose posed, body;
-    (void)n;
     if (stage->tail_count == STAGE_MAX_TAILS) return;
     posing.memory = POSE_SHOWN;
     const bool has_fox = tail_pose(&posing, rig, core->view.playback.position, NULL, &posed, &body);
@@ -87,14 +86,13 @@ static void pose_tail(struct stage *stage, const struct core *core, int rig, int
 
 const struct stage_kind tail_stage = {.pose = pose_tail, .bound_steps = BOUND_STEPS};
 
-static void pose_chain(struct stage *stage, const struct core *core, int rig, int n)
+static void pose_chain(struct stage *stage, const struct core *core, int rig)
 {
     const struct chain *chain = &core->document->rigs[rig]->chain;
     const int model = rig_body(core->document, rig);
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     struct chain_bones bones;
     struct rig_pose posed;
-    (void)n;
     if (!shown || !chain_find(&shown->gltf, chain->from, chain->to, &bones, NULL)) return;
     bones_mark(stage, core, rig, model, &bones);
     if (stage->strand_count < STAGE_MAX_STRANDS &&
