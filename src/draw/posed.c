@@ -63,7 +63,7 @@ static void mark_front(struct posed *mesh, const float eye[3])
 
 // --- models
 
-/// A material's number; −1 or one that phases hide: plain white.
+/// Gives a part the look of its material. Without one, or where phases hide it, it is plain white.
 static void dress(struct posed_part *part, const struct gltf *gltf, bool hidden)
 {
     static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};

@@ -102,8 +102,8 @@ struct model_pose {
     struct morph morph;           ///< of that
 };
 
-/// What carries a vertex of the soft mesh that has been moved by its coordinates into the pose: the matrix Σ wⱼ Jⱼ of its joints, or its node's,
-/// in the model's space, after a way that other morph targets of the clip add. Both are for places at rest.
+/// Where the pose takes a vertex that its coordinates have moved. First `way` is added, by the clip's other morph targets; then `matrix`, Σ wⱼ Jⱼ
+/// of its joints or that of its node, takes it into the model's space.
 void figure_carry(const struct model_pose *model, int vertex, float matrix[16], float way[3]);
 
 /// Places and unit normals of all its vertices in the world, v′ = Σ wⱼ Jⱼ (v + D), and a box that is widened to hold them. Any may be NULL.

@@ -422,7 +422,7 @@ static bool check_model(const struct rig *of, const struct imported *imported, s
                     c->coordinate_count > 0 ? c->coordinates[0].name : "");
     }
     if (c->vertex_count == 0 && (of->pin_count > 0 || rig->has_floor))
-        return fail(error, ERROR_INPUT, "%s: expected something soft for its %s, got nothing", rig->model,
+        return fail(error, ERROR_INPUT, "%s: expected a soft mesh for its %s, got none", rig->model,
                     of->pin_count > 0 ? "pins" : "floor");
     const struct paint *paint = rig->painted;
     return check_pins(of, c->vertex_count, error) &&
