@@ -1,5 +1,6 @@
 /// Films a scene: chooses frames and size, draws the pictures and writes them as .gif, with ffmpeg or as numbered files.
 #include "app/film.h"
+#include "base/child.h"
 #include "base/file.h"
 #include "base/names.h"
 #include "base/need.h"
@@ -12,14 +13,11 @@
 #include <limits.h>
 #include <math.h>
 #include <poll.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 // === .gif (version 89a): each picture with colors of its own and only where it differs from the last
@@ -86,9 +84,8 @@ struct film_file {
 
     // ffmpeg
     size_t size, taken; ///< bytes per picture; bytes of the current picture already sent
-    pid_t process;      ///< 0: ended and waited for
-    int feed;           ///< our end of its standard input; −1: closed
-    FILE *log;          ///< its standard error
+    struct child encoder;
+    int feed; ///< our end of its standard input; −1: closed
 
     // .png
     int before, digits; ///< bytes of the path before the number; least number of digits; −1: no number
@@ -428,38 +425,10 @@ enum { PATIENCE = 100 };
 /// ffmpeg writes to its standard output, here a seekable file because .mp4 needs to seek back.
 static char output_name[] = "/dev/fd/1";
 
-/// Starts ffmpeg from PATH, without a shell and shielded from the terminal's Ctrl+C. Returns 0 or errno.
-static int spawn_encoder(struct film_file *file, char *const *arguments, int input)
-{
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    sigset_t none, usual;
-    sigemptyset(&none);
-    sigemptyset(&usual);
-    sigaddset(&usual, SIGINT);
-    sigaddset(&usual, SIGPIPE);
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&files, fileno(file->output.stream), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files, fileno(file->log), STDERR_FILENO);
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setsigdefault(&attributes, &usual);
-    int cause = posix_spawnp(&file->process, arguments[0], &files, &attributes, arguments, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
-    return cause;
-}
-
 static void close_encoder(struct film_file *file)
 {
     if (file->feed >= 0) close(file->feed);
-    if (file->process > 0) {
-        kill(file->process, SIGKILL);
-        while (waitpid(file->process, NULL, 0) < 0 && errno == EINTR) continue;
-    }
-    if (file->log) fclose(file->log);
+    child_end(&file->encoder);
     file_output_discard(&file->output);
     free(file);
 }
@@ -483,15 +452,14 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
         for (char *const *coding = shape->coding; *coding; coding++) arguments[count++] = *coding;
         arguments[count] = output_name;
         // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
-        if (!(file->log = tmpfile()) || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+        if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
             cause = errno;
         } else {
             file->feed = ends[0];
-            cause = spawn_encoder(file, arguments, ends[1]);
+            cause = child_start(&file->encoder, arguments, ends[1], fileno(file->output.stream));
             close(ends[1]);
         }
         if (cause == 0) return file;
-        file->process = 0;
         if (cause == ENOENT) {
             fail(error, ERROR_ENVIRONMENT,
                  "%s: ffmpeg, which makes it, is missing: install the package ffmpeg, or write .gif or .png, which "
@@ -506,32 +474,20 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
 }
 
 /// Fails with the last line ffmpeg wrote.
-static enum film_state fail_encoder(struct film_file *file, struct error *error)
+static enum film_state fail_encoder(const struct film_file *file, struct error *error)
 {
-    char words[400] = "it was ended", next[512];
-    rewind(file->log);
-    while (fgets(next, sizeof next, file->log)) {
-        next[strcspn(next, "\r\n")] = '\0';
-        if (next[0]) snprintf(words, sizeof words, "%.399s", next);
-    }
+    char words[400];
+    child_last_words(&file->encoder, words, sizeof words);
     fail(error, ERROR_ENVIRONMENT, "%s: ffmpeg cannot write it: %s", file->path, words);
     return FILM_FAILED;
 }
 
 /// Closes ffmpeg's input and checks whether it has ended.
-static enum film_state end_encoder(struct film_file *file, bool wait)
+static enum child_state end_encoder(struct film_file *file, bool wait)
 {
-    int status;
     if (file->feed >= 0) close(file->feed);
     file->feed = -1;
-    pid_t ended = waitpid(file->process, &status, WNOHANG);
-    for (int waited = 0; wait && ended == 0 && waited < PATIENCE; waited += 5) {
-        poll(NULL, 0, 5);
-        ended = waitpid(file->process, &status, WNOHANG);
-    }
-    if (ended == 0) return FILM_RUNS;
-    file->process = 0;
-    return ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? FILM_DONE : FILM_FAILED;
+    return child_state(&file->encoder, wait ? PATIENCE : 0);
 }
 
 static enum film_state put_encoder(struct film_file *file, const unsigned char *pixels, bool wait,
@@ -544,7 +500,7 @@ static enum film_state put_encoder(struct film_file *file, const unsigned char *
         } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
             if (!wait || poll(&(struct pollfd){file->feed, POLLOUT, 0}, 1, PATIENCE) <= 0) return FILM_RUNS;
         } else if (errno != EINTR) {
-            while (end_encoder(file, true) == FILM_RUNS) continue; // until its last line is there
+            while (end_encoder(file, true) == CHILD_RUNS) continue; // until its last line is there
             return fail_encoder(file, error);
         }
     }
@@ -555,9 +511,9 @@ static enum film_state put_encoder(struct film_file *file, const unsigned char *
 static enum film_state finish_encoder(struct film_file *file, bool wait, off_t *bytes, struct error *error)
 {
     struct stat status;
-    enum film_state state = end_encoder(file, wait);
-    if (state == FILM_FAILED) return fail_encoder(file, error);
-    if (state == FILM_RUNS) return FILM_RUNS;
+    const enum child_state state = end_encoder(file, wait);
+    if (state == CHILD_FAILED) return fail_encoder(file, error);
+    if (state == CHILD_RUNS) return FILM_RUNS;
     *bytes = fstat(fileno(file->output.stream), &status) == 0 ? status.st_size : 0;
     return file_output_commit(&file->output, error) ? FILM_DONE : FILM_FAILED;
 }

@@ -1,19 +1,16 @@
 /// Reads the pictures and films behind the stage.
 #include "rig/background.h"
+#include "base/child.h"
 #include "base/need.h"
 #include "model/gltf.h"
 #include <dirent.h>
-#include <errno.h>
 #include <limits.h>
 #include <math.h>
 #include <pthread.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 enum { WIDEST = 1280, HIGHEST = 720, SIZE = 4 * WIDEST * HIGHEST, MOST_BYTES = 256 << 20 };
@@ -40,7 +37,7 @@ struct background {
     // the reader's
     struct slot spare;
     FILE *film; ///< what ffmpeg writes
-    pid_t process;
+    struct child decoder;
     int first, next; ///< pictures since ffmpeg was started
 
     // shared
@@ -122,8 +119,7 @@ static void end_film(struct background *b)
     if (!b->film) return;
     fclose(b->film);
     b->film = NULL;
-    kill(b->process, SIGKILL);
-    while (waitpid(b->process, NULL, 0) < 0 && errno == EINTR) continue;
+    child_end(&b->decoder);
 }
 
 /// Starts ffmpeg, which writes pictures at the scene's frame rate. False if it does not run.
@@ -140,13 +136,9 @@ static bool start_film(struct background *b, int first)
     char *const arguments[] = {"ffmpeg", "-nostdin", "-loglevel", "quiet", "-ss",    from, "-i",
                                b->path,  "-map",     "0:v:0",     "-vf",   filter,   "-f", "image2pipe",
                                "-c:v",   "pam",      "-pix_fmt",  "rgba",  "pipe:1", NULL};
-    posix_spawn_file_actions_t files;
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return false;
     if (!(b->film = fdopen(ends[0], "rb"))) need_failed();
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
-    const bool runs = posix_spawnp(&b->process, *arguments, &files, NULL, arguments, environ) == 0;
-    posix_spawn_file_actions_destroy(&files);
+    const bool runs = child_start(&b->decoder, arguments, -1, ends[1]) == 0;
     close(ends[1]);
     b->first = b->next = first;
     if (runs) return true;
