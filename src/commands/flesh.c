@@ -21,6 +21,7 @@
 #include "model/vector.h"
 #include "rig/import.h"
 #include "scene/load.h"
+#include "scene/rig.h"
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -30,6 +31,7 @@ static const double usual_depth = 0.5;  ///< of the median distance of the flesh
 static const double same_pole = 0.1;    ///< relative difference of frequencies that count as one
 static const double wide = 1.5;         ///< the same, of the damping ratio
 static const double least_share = 0.01; ///< of the motion, of a coordinate that is kept
+static const double whole = 0.69314718; ///< log of the painted amplitude where flesh is wholly of the part
 
 struct job {
     const char *input, *output, *scene;
@@ -46,6 +48,7 @@ struct flesh {
     struct gltf_pose rest;
     int node, skin, mesh; ///< what shows it
     bool *chosen;         ///< per node: it is in the part
+    struct paint *paint;  ///< that is the part; NULL: none
     int bone;             ///< node that carries the part; −1: each coordinate has its own
     struct surface surface;
     const struct gltf_part **part_of; ///< per row
@@ -66,12 +69,14 @@ static double follows(const struct flesh *f, int row, int k, int *node)
     return part->joints ? (double)part->weights[vertex][k] : k == 0;
 }
 
-/// Marks the bones of --part and those below, and finds the bone that carries them.
-static bool choose_bones(struct flesh *f, const struct job *job, struct error *error)
+/// Marks the bones of --part and those below, finds the bone that carries them, and reads paint.
+static bool choose_part(struct flesh *f, const struct job *job, struct error *error)
 {
     const struct gltf *gltf = &f->gltf;
     f->chosen = pool_take(&f->pool, (size_t)gltf->node_count, sizeof *f->chosen);
     f->bone = -1;
+    if (job->part.count == 1 && path_has_end(job->part.text[0], ".npy"))
+        return (f->paint = paint_read(job->part.text[0], error)) != NULL;
     for (int i = 0; i < job->part.count; i++) {
         const int node = gltf_find_node(gltf, job->part.text[i]);
         if (node < 0) {
@@ -97,7 +102,16 @@ static bool choose_bones(struct flesh *f, const struct job *job, struct error *e
     return true;
 }
 
-/// Finds the vertices of the node's mesh and how much of each follows the part. Returns how many do.
+/// How much of a vertex is of the part by its paint: as far as one coordinate has its amplitude raised.
+static double painted_share(const struct paint *paint, int vertex)
+{
+    float most = 0;
+    for (int c = 0; c < paint->coordinates; c++)
+        most = fmaxf(most, paint->values[(size_t)c * (size_t)paint->vertices + (size_t)vertex][0]);
+    return fmin((double)most / whole, 1);
+}
+
+/// Finds the vertices of the node's mesh and how much of each is of the part. Returns how many are; −1: the paint is of another mesh.
 static int find_share(struct flesh *f, int node)
 {
     const struct gltf_mesh *mesh = &f->gltf.meshes[f->gltf.nodes[node].mesh];
@@ -110,10 +124,17 @@ static int find_share(struct flesh *f, int node)
     f->part_of = pool_take(&f->pool, count + 1, sizeof *f->part_of);
     f->row_of = pool_take(&f->pool, count + 1, sizeof *f->row_of);
     f->share = pool_take(&f->pool, count + 1, sizeof *f->share);
-    for (int p = 0, row = 0; p < mesh->part_count; p++) {
-        for (int i = 0; i < mesh->parts[p].vertex_count; i++, row++) {
-            f->part_of[row] = &mesh->parts[p];
+    int unshared = 0; // paint has the vertices of a part that shares them once
+    for (int p = 0; p < mesh->part_count; p++) unshared += mesh->parts[p].shared ? 0 : mesh->parts[p].vertex_count;
+    if (f->paint && f->paint->vertices != unshared) return -1;
+    for (int p = 0, row = 0, next = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        const int first = part->shared ? 0 : next;
+        next += part->shared ? 0 : part->vertex_count;
+        for (int i = 0; i < part->vertex_count; i++, row++) {
+            f->part_of[row] = part;
             f->row_of[row] = i;
+            f->share[row] = f->paint ? painted_share(f->paint, first + i) : 0;
             for (int k = 0; k < GLTF_INFLUENCES; k++) {
                 int joint;
                 const double weight = follows(f, row, k, &joint);
@@ -126,16 +147,17 @@ static int find_share(struct flesh *f, int node)
     return found;
 }
 
-/// Chooses the skinned mesh of which most follows the part, and says so if there are several.
+/// Chooses the skinned mesh of which most is of the part, and says so if there are several.
 static bool choose_mesh(struct flesh *f, const struct job *job, struct error *error)
 {
     const struct gltf *gltf = &f->gltf;
-    int best = -1, most = 0, skinned = 0, candidates = 0;
+    int best = -1, most = 0, skinned = 0, candidates = 0, suits = 0;
     for (int n = 0; n < gltf->node_count; n++) {
         if (gltf->nodes[n].mesh < 0 || gltf->nodes[n].skin < 0 || gltf_vertex_count(gltf, n) == 0) continue;
         const int found = find_share(f, n);
         skinned++;
         candidates += found > 0;
+        suits += found >= 0;
         if (found <= most) continue;
         most = found;
         best = n;
@@ -143,6 +165,11 @@ static bool choose_mesh(struct flesh *f, const struct job *job, struct error *er
     if (skinned == 0)
         return fail(error, ERROR_INPUT, "%s: expected a mesh with a skin, got none: wiggly simulate takes it",
                     gltf->path);
+    if (suits == 0)
+        return fail(error, ERROR_INPUT, "%s: expected paint of a mesh with a skin of %s, got some for %d vertices",
+                    job->part.text[0], gltf->path, f->paint->vertices);
+    if (best < 0 && f->paint)
+        return fail(error, ERROR_INPUT, "%s: expected vertices with a raised amplitude, got none", job->part.text[0]);
     if (best < 0)
         return fail(error, ERROR_INPUT, "%s: no vertex follows the bone \"%s\" or one below it", gltf->path,
                     job->part.text[0]);
@@ -548,7 +575,7 @@ static bool write_flesh(const struct job *job, struct flesh *f, const struct sha
         free(stem);
     }
     while (count < job->modes && count < s->count && (count == 0 || s->candidates[count].explained >= least_share)) {
-        const char *name = names_add(&names, job->part.count ? job->part.text[0] : "flesh");
+        const char *name = names_add(&names, f->bone >= 0 ? job->part.text[0] : "flesh");
         coordinates[count].name = pool_text(&f->pool, name, "", "");
         make_coordinate(&coordinates[count], f, s, &s->candidates[count]);
         count++;
@@ -617,7 +644,7 @@ static bool make_flesh(struct job *job, struct error *error)
     bool done = gltf_read_stored(job->input, &f.gltf, error);
     if (done) {
         done = (gltf_pose_create(&f.gltf, &f.rest) || fail_no_memory(error, job->input)) &&
-               choose_bones(&f, job, error) && choose_mesh(&f, job, error);
+               choose_part(&f, job, error) && choose_mesh(&f, job, error);
         if (done) {
             make_surface(&f);
             make_lines(&f, job->part.count > 0);
@@ -631,6 +658,7 @@ static bool make_flesh(struct job *job, struct error *error)
         gltf_pose_free(&f.rest);
         gltf_free(&f.gltf);
     }
+    paint_drop(f.paint);
     pool_free(&s->pool);
     pool_free(&f.pool);
     free(s);
@@ -646,7 +674,7 @@ int command_flesh(int argc, char **argv)
          OPTION_OUTPUT, &job.output, 0, 0},
         {"--scene FILE", "also write a scene in which the flesh follows its bones through the first clip",
          OPTION_OUTPUT, &job.scene, 0, 0},
-        {"--part BONE", "only what follows this bone and those below it; can be repeated (the whole mesh)",
+        {"--part BONE", "only what follows this bone and those below; can be repeated; or PAINT.npy (the whole mesh)",
          OPTION_LIST, &job.part, 0, 0},
         {"--depth H", "hold what lies within H metres of the bones (half the median distance)", OPTION_REAL,
          &job.depth, 0, 1e6},

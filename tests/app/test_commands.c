@@ -219,7 +219,7 @@ static const struct {
     {"map.npy", "(8,)", half, 32},    {"short.npy", "(8,)", half, 24},
     {"long.npy", "(9,)", half, 36},   {"huge.npy", "(8, 4611686018427387904)", half, 32},
     {"wild.npy", "(8,)", wild, 32},   {"above.npy", "(8, 1)", above, 32},
-    {"below.npy", "(8,)", below, 32},
+    {"below.npy", "(8,)", below, 32}, {"paint.npy", "(1, 4, 2)", half, 32},
 };
 
 static const char *const links[][2] = {
@@ -500,6 +500,8 @@ static const struct {
     // flesh
     {1, "flesh dog.glb --part tial_1 -o x.glb",
      "dog.glb: expected a bone for --part, got \"tial_1\" (did you mean \"tail_1\"?)"},
+    {1, "flesh dog.glb --part paint.npy -o x.glb",
+     "paint.npy: expected paint of a mesh with a skin of |dog.glb, got some for 4 vertices"},
     {1, "flesh assets/models/creature.glb -o x.glb", "creature.glb: expected a mesh with a skin, got none"},
     {1, "flesh none.glb -o x.glb", "none.glb"},
     {1, "flesh dog.glb --depth 9 -o x.glb", "nothing can move: all of it is within 9 m of a bone"},
