@@ -259,6 +259,8 @@ void app_frame(struct app *app)
 {
     struct workspace *work = &app->work;
     struct frame_row *row = &app->row;
+    flesh_step(app);
+    app->figures.makes_flesh = app->flesh != NULL;
     if (!take_input(app)) {
         personal_update(app);
         return;
@@ -535,6 +537,7 @@ static bool start_app(struct app *app, struct error *error)
 void app_free(struct app *app)
 {
     app_stop_export(app);
+    flesh_stop(app);
     workspace_free(&app->work);
     draw_destroy(app->draw);
     platform_destroy(app->platform);

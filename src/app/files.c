@@ -266,6 +266,7 @@ void app_show_title(struct app *app)
 
 void app_adopt(struct app *app, struct document *document)
 {
+    flesh_stop(app);
     if (app->personal) file_forget_reads(NULL); // of the scene before
     document_destroy(app->work.document);
     app->work.document = document;
@@ -325,9 +326,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
     return true;
 }
 
-/// Where a file is written. A replay chooses no folder: what it writes goes to that of --saves, by its name alone, else nowhere (""). To the
-/// replay, all is as it was recorded.
-static bool place_file(const struct app *app, const char *path, char placed[PATH_LIMIT], struct error *error)
+bool app_place_file(const struct app *app, const char *path, char placed[PATH_LIMIT], struct error *error)
 {
     const char *saves = app->options->saves, *name = path_name(path);
     const bool is_name = *name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0;
@@ -337,8 +336,7 @@ static bool place_file(const struct app *app, const char *path, char placed[PATH
     return (is_name && length < PATH_LIMIT) || fail(error, ERROR_INPUT, "%s: expected the path of a file", path);
 }
 
-/// Tells where a replay's file is.
-static void tell_placed(struct app *app, const char *placed)
+void app_tell_placed(struct app *app, const char *placed)
 {
     if (placed[0])
         editor_message(app->work.editor, false, "Saved %s.", placed);
@@ -349,7 +347,7 @@ static void tell_placed(struct app *app, const char *placed)
 static bool save(struct app *app, const char *path, struct error *error)
 {
     char placed[PATH_LIMIT];
-    if (!place_file(app, path, placed, error)) return false;
+    if (!app_place_file(app, path, placed, error)) return false;
     if (placed[0] && (!file_check_place(placed, error) || !scene_save(app->work.document, placed, error)))
         return false;
     history_set_path(app->work.history, path);
@@ -358,7 +356,7 @@ static bool save(struct app *app, const char *path, struct error *error)
     show_title(app);
     personal_note_file(app, app_path(app));
     editor_message(app->work.editor, false, "Saved.");
-    if (app->replay) tell_placed(app, placed);
+    if (app->replay) app_tell_placed(app, placed);
     return true;
 }
 
@@ -385,10 +383,10 @@ static bool take_picture(struct app *app, struct error *error)
     do {
         snprintf(name, sizeof name, "wiggly-%04d.png", ++number);
         if (!path_resolve(folder, name, path)) return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
-        if (!place_file(app, path, placed, error)) return false;
+        if (!app_place_file(app, path, placed, error)) return false;
     } while (placed[0] && access(placed, F_OK) == 0);
     if (placed[0] && !app_screenshot(app, placed, error)) return false;
-    tell_placed(app, placed);
+    app_tell_placed(app, placed);
     return true;
 }
 
@@ -404,7 +402,7 @@ static bool may_replace(struct app *app, const struct request *request, struct e
     is_read |= document_background_path(document, path) && file_same(request->path, path);
     if (is_read)
         return fail(error, ERROR_INPUT, "%s: this scene is read from it: choose another name", request->path);
-    if (!place_file(app, request->path, path, error) || !file_check_unread(path, error)) return false;
+    if (!app_place_file(app, request->path, path, error) || !file_check_unread(path, error)) return false;
     if (access(path, F_OK) != 0 || strcmp(request->path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0 ||
         is_download)
         return true;
@@ -416,10 +414,10 @@ static bool may_replace(struct app *app, const struct request *request, struct e
 static bool start_export(struct app *app, const struct request *request, struct error *error)
 {
     struct request placed = *request;
-    if (!place_file(app, request->path, placed.path, error)) return false;
+    if (!app_place_file(app, request->path, placed.path, error)) return false;
     if (!placed.path[0]) {
         editor_answer(app->work.editor, request, true, "");
-        tell_placed(app, placed.path);
+        app_tell_placed(app, placed.path);
         return true;
     }
     if (app->export_job) return fail(error, ERROR_INPUT, "Another export is running.");
@@ -508,6 +506,8 @@ static bool do_request(struct app *app, const struct request *request, struct er
     case REQUEST_EXPORT_STOP:
         if (app->export_job) atomic_store(&app->export_job->stop, true);
         return true;
+    case REQUEST_FLESH:
+        return flesh_start(app, request, error);
     case REQUEST_QUIT:
         app->quit = true;
         return true;

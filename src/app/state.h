@@ -119,6 +119,7 @@ struct app {
     unsigned last_serial; ///< highest document.serial so far
 
     struct export_job *export_job; ///< NULL: no export
+    struct flesh_job *flesh;       ///< NULL: none is made
     struct personal *personal;     ///< NULL: not interactive
 
     struct replay *replay; ///< NULL: events come from the user
@@ -228,6 +229,21 @@ bool exporting_draws(const struct app *app);
 
 /// Stops the export without writing anything.
 void app_stop_export(struct app *app);
+
+// Flesh that is made in the background, by a process.
+
+/// Begins to make flesh of a model: of a bone and those below it, else where its paint raises the amplitude, else of all. Ends what is being made.
+bool flesh_start(struct app *app, const struct request *request, struct error *error);
+/// Call once per frame, also while idle. With a fixed clock it waits for the end.
+void flesh_step(struct app *app);
+/// Leaves nothing behind.
+void flesh_stop(struct app *app);
+
+/// Where a file is written. A replay chooses no folder: what it writes goes to that of --saves, by its name alone, else nowhere (""). To the
+/// replay, all is as it was recorded.
+bool app_place_file(const struct app *app, const char *path, char placed[PATH_LIMIT], struct error *error);
+/// Tells where a replay's file is.
+void app_tell_placed(struct app *app, const char *placed);
 
 /// The clipboard's text; NULL, with a message, if there is none or too much.
 const char *app_clipboard_text(struct app *app);

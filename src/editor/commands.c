@@ -320,6 +320,8 @@ const struct command commands[] = {
          {'J', 0}),
     ALSO("follow-through overlap jiggle", "Make a chain over the clip", STAGE, ON_STAGE, BONE, 0,
          .core = bones_make_chain, true, {'J', SHIFT}),
+    ALSO("soft jiggle belly simulate", "Make flesh of the bone or character", STAGE, IN_STAGE_MENU, MODEL, 0,
+         .core = rigs_make_flesh, 0, {0}),
     ALSO("brush weight offset", "Paint phase and amplitude", STAGE, 0, PAINT, 0, .run = run_brush, 0, {'B', SHIFT}),
     GESTURE("Right drag", "Orbit", STAGE, ON_STAGE),
     GESTURE("Ctrl+Shift+arrows", "Orbit", STAGE, 0),

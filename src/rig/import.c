@@ -112,20 +112,26 @@ static bool add_spline(struct document *document, const char *name, const struct
            (!(ratio > 0) || edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error));
 }
 
-/// Lets flesh hang on its bones: each coordinate that has one gets a spline that follows it in the clip. The model is the document's last rig.
-static bool hang_flesh(struct document *document, const struct character *soft, const struct gltf_clip *clip,
-                       struct error *error)
+/// Lets flesh hang on its bones: each coordinate that has one and no drive gets a spline that follows it in the rig's clip.
+static bool hang_flesh(struct document *document, int rig, const struct imported *from, struct error *error)
 {
-    const int rig = document->rig_count - 1, first = document->spline_count;
+    const struct character *soft = &from->figure.character;
+    const int clip = gltf_find_clip(&from->gltf, document->rigs[rig]->model.clip);
     struct drive drives[MODEL_MAX_DRIVES];
     struct rig changed = *document->rigs[rig];
+    struct clip_play play = {0};
+    if (clip >= 0) play = clip_play(&changed.model, &from->gltf.clips[clip]);
+    const struct param start = param_number(posing_clip_loops(document, &play) ? WIGGLY_LOOP : WIGGLY_REST);
+    const int count = changed.model.drive_count;
     bool done = true;
+    for (int d = 0; d < count; d++) drives[d] = changed.model.drives[d];
     changed.model.drives = drives;
-    changed.model.drive_count = 0;
     for (int i = 0; done && i < soft->coordinate_count && changed.model.drive_count < MODEL_MAX_DRIVES; i++) {
         const struct coordinate *coordinate = &soft->coordinates[i];
         const int spline = document->spline_count;
-        if (!coordinate->bone || !(coordinate->frequency > 0)) continue;
+        bool has_drive = false;
+        for (int d = 0; d < count; d++) has_drive |= strcmp(drives[d].name, coordinate->name) == 0;
+        if (has_drive || !coordinate->bone || !(coordinate->frequency > 0)) continue;
         drives[changed.model.drive_count++] =
             (struct drive){.name = coordinate->name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
         struct joint_motion motion = {.model = changed.name ? changed.name : changed.model.model,
@@ -134,11 +140,53 @@ static bool hang_flesh(struct document *document, const struct character *soft, 
                                       .of = MOTION_BASE,
                                       .gain = 1};
         const struct param equilibrium = {.track = -1, .motion = &motion};
-        done = add_spline(document, coordinate->name, NULL, coordinate->frequency, coordinate->damping, error) &&
-               edit_parameter(document, spline, PARAMETER_EQUILIBRIUM, &equilibrium, error);
+        const struct knot knot = {.frame = document->first_frame, .value = 0.5}; // without a clip it swings at once
+        done =
+            add_spline(document, coordinate->name, clip < 0 && changed.model.drive_count == count + 1 ? &knot : NULL,
+                       coordinate->frequency, coordinate->damping, error) &&
+            edit_parameter(document, spline, PARAMETER_EQUILIBRIUM, &equilibrium, error) &&
+            edit_parameter(document, spline, PARAMETER_START, &start, error);
     }
-    return done && (document->spline_count == first ||
-                    (edit_rig_set(document, rig, &changed, error) && fit_to_clip(document, rig, clip, error)));
+    return done && edit_rig_set(document, rig, &changed, error);
+}
+
+/// Keeps a character's paint for a file with more coordinates; if it `chose` the part, less what raised amplitudes.
+static bool keep_paint(struct document *document, int rig, const struct character *soft, bool chose,
+                       struct error *error)
+{
+    struct paint *old = paint_hold(document->rigs[rig]->model.painted);
+    const int vertices = old->vertices, coordinates = (int)fmin(old->coordinates, soft->coordinate_count);
+    int *vertex = need((size_t)vertices, sizeof *vertex);
+    float(*values)[2] = need((size_t)vertices, sizeof *values);
+    bool done =
+        vertices == soft->vertex_count && edit_paint_new(document, rig, soft->coordinate_count, vertices, error);
+    for (int v = 0; v < vertices; v++) vertex[v] = v;
+    for (int c = 0; done && c < coordinates; c++) {
+        for (int v = 0; v < vertices; v++) {
+            const float *value = old->values[(size_t)c * (size_t)vertices + (size_t)v];
+            values[v][0] = chose ? fminf(value[0], 0) : value[0];
+            values[v][1] = value[1];
+        }
+        done = edit_paint(document, rig, &(struct dab){c, vertices, vertex, (const float(*)[2])values}, error);
+    }
+    free(vertex);
+    free(values);
+    paint_drop(old);
+    return done;
+}
+
+bool import_flesh(struct document *document, int rig, const char *path, bool by_paint, struct error *error)
+{
+    char whole[PATH_LIMIT], file[PATH_LIMIT];
+    struct imported soft;
+    if (!path_resolve(NULL, path, whole) || !path_rebase(whole + 1, "/", document->folder, file))
+        snprintf(file, sizeof file, "%s", path);
+    if (!imported_read(&soft, path, error)) return false;
+    const bool done =
+        edit_model_file(document, rig, file, error) && hang_flesh(document, rig, &soft, error) &&
+        (!document->rigs[rig]->model.painted || keep_paint(document, rig, &soft.figure.character, by_paint, error));
+    imported_free(&soft);
+    return done;
 }
 
 bool import_add(struct document *document, const char *path, int spline, struct error *error)
@@ -178,7 +226,7 @@ bool import_add(struct document *document, const char *path, int spline, struct 
                            round(soft->damping * 1000) / 1000, error);
     }
     added = added && edit_rig_add(document, &rig, error) &&
-            (!hangs || hang_flesh(document, &imported.figure.character, clip, error));
+            (!hangs || hang_flesh(document, document->rig_count - 1, &imported, error));
     imported_free(&imported);
     return added;
 }

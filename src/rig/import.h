@@ -16,6 +16,10 @@ struct document *import_scene(const char *path, struct error *error);
 /// False with a sentence.
 bool import_add(struct document *document, const char *path, int spline, struct error *error);
 
+/// Shows a model rig by a copy of its file to which `wiggly flesh` has added coordinates. Each gets a spline that follows its bone in the clip.
+/// Paint stays; but if it chose the part, amplitudes that it raised go. False with a sentence; the document may then be half changed.
+bool import_flesh(struct document *document, int rig, const char *path, bool by_paint, struct error *error);
+
 /// Makes a model rig play a clip of its file, NULL: none. A scene without splines, or with some that follow the clip and no knots or pins,
 /// takes the clip's frame rate and range, and splines that follow it loop if it does.
 bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,

@@ -700,6 +700,23 @@ static void set_text(char **text, const char *value)
     *text = copy;
 }
 
+/// What refers to a rig by its old name, or by its old file, refers to the new one.
+static void refer(struct document *document, int rig, const char *old, bool by_file, const char *now)
+{
+    for (int s = 0; s < document->spline_count; s++) {
+        if (!document_follows(document, s, rig)) continue;
+        struct param *param = &document_own_spline(document, s)->parameter[PARAMETER_EQUILIBRIUM];
+        struct joint_motion *motion = motion_create(param->motion);
+        if (motion->by_file == by_file && strcmp(motion->model, old) == 0) set_text(&motion->model, now);
+        if (!by_file && motion->chain && strcmp(motion->chain, old) == 0) set_text(&motion->chain, now);
+        motion_drop(param->motion);
+        param->motion = motion;
+    }
+    for (int r = -1; (r = document_next_chain(document, rig, r)) >= 0;) {
+        if (document->rigs[r]->chain.by_file == by_file) set_text(&document_own_rig(document, r)->chain.model, now);
+    }
+}
+
 bool edit_rig_name(struct document *document, int rig, const char *name, struct error *error)
 {
     if (!find_rig(document, rig, EDIT_ANY_KIND, error)) return false;
@@ -729,20 +746,18 @@ bool edit_rig_name(struct document *document, int rig, const char *name, struct 
         return true;
     }
 
-    // What refers to the old name refers to the new one.
-    for (int s = 0; old && s < document->spline_count; s++) {
-        if (!document_follows(document, s, rig)) continue;
-        struct param *param = &document_own_spline(document, s)->parameter[PARAMETER_EQUILIBRIUM];
-        struct joint_motion *motion = motion_create(param->motion);
-        if (!motion->by_file && strcmp(motion->model, old) == 0) set_text(&motion->model, name);
-        if (motion->chain && strcmp(motion->chain, old) == 0) set_text(&motion->chain, name);
-        motion_drop(param->motion);
-        param->motion = motion;
-    }
-    for (int r = -1; old && (r = document_next_chain(document, rig, r)) >= 0;) {
-        if (!document->rigs[r]->chain.by_file) set_text(&document_own_rig(document, r)->chain.model, name);
-    }
+    if (old) refer(document, rig, old, false, name);
     set_text(&document_own_rig(document, rig)->name, name);
+    free(old);
+    return true;
+}
+
+bool edit_model_file(struct document *document, int rig, const char *file, struct error *error)
+{
+    if (!find_rig(document, rig, EDIT_KIND(RIG_MODEL), error)) return false;
+    char *const old = need_text(document->rigs[rig]->model.model);
+    refer(document, rig, old, true, file);
+    set_text(&document_own_rig(document, rig)->model.model, file);
     free(old);
     return true;
 }

@@ -67,6 +67,9 @@ bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, 
 /// The name must not be empty or another rig's. References to the old name are changed, too.
 bool edit_rig_name(struct document *document, int rig, const char *name, struct error *error);
 
+/// Shows a model by another file. References to the old file are changed, too.
+bool edit_model_file(struct document *document, int rig, const char *file, struct error *error);
+
 enum angle_kind { ANGLE_REST, ANGLE_LAG, ANGLE_GAIN };
 
 /// A channel of a rig: of a tail or chain; ANGLE_REST is none.

@@ -35,6 +35,7 @@ enum request_kind {
     REQUEST_COPY,        ///< text to the clipboard
     REQUEST_PASTE,       ///< answered by EVENT_PASTE
     REQUEST_EXPORT,      ///< path, wish; answered when done
+    REQUEST_FLESH,       ///< number: a model rig, text: a bone of it or NULL; ends flesh that is being made
     REQUEST_EXPORT_STOP, ///< stops the running export, which then answers
 };
 
@@ -83,6 +84,7 @@ struct figures {
     double ui_scale;      ///< size of the interface relative to the display's
     float stage_scale;    ///< resolution of the stage per side relative to the window's; 0 means 1
     bool unkept;          ///< unsaved work has no recovery file
+    bool makes_flesh;     ///< in the background
     long done, total;     ///< of the running export; total 0: unknown
 };
 

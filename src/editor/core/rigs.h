@@ -54,6 +54,9 @@ void bones_pick(struct core *core, enum bone_use use, int which);
 /// becomes active.
 void bones_make_chain(struct core *core, int follow);
 
+/// Has flesh made of the selected bone and those below it; else of what paint chooses of the selected character, or all of it. The second time it ends that.
+void rigs_make_flesh(struct core *core, int unused);
+
 /// A chain whose bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at: `chain` if it
 /// has, else the last; -1: none.
 int bones_mirrorable(const struct core *core, int chain);

@@ -894,6 +894,12 @@ void inspector_character(struct inspector *in)
 
     int owner;
     const int node = bones_selected(in->core, &owner);
+    const struct row flesh = {.name = "model.flesh",
+                              .label = in->core->app.figures->makes_flesh ? "Stop making flesh"
+                                       : node < 0                         ? "Make flesh"
+                                                                          : "Make flesh of the bone",
+                              .hint = "Simulate it as a soft body, to swing on its bones"};
+    if (!in->core->app.in_page && inspector_button(in, ui_row(ui, UI_ROW), &flesh)) rigs_make_flesh(in->core, 0);
     r = inspector_labelled(in, "bone");
     if (node < 0) {
         ui_label(ui, r, "click one on the stage", theme()->text_dim);
