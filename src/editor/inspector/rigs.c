@@ -894,22 +894,24 @@ void inspector_character(struct inspector *in)
 
     int owner;
     const int node = bones_selected(in->core, &owner);
+    r = inspector_labelled(in, "bone");
+    if (node < 0) {
+        ui_label(ui, r, "click one on the stage", theme()->text_dim);
+    } else {
+        ui_label(ui, r, bones_character(in->core, owner)->gltf.nodes[node].name, theme()->text);
+        const struct rect row = ui_row(ui, UI_ROW);
+        const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
+        for (int i = 0; i < 2; i++) {
+            const struct rect button = {i > 0 ? row.x + (widths[0] + 6) : row.x, row.y + 2, widths[i], row.h - 4};
+            if (inspector_button(in, button, &buttons[i])) bones_make_chain(in->core, i > 0);
+        }
+    }
+    if (in->core->app.in_page) return;
     const struct row flesh = {.name = "model.flesh",
                               .label = in->core->app.figures->makes_flesh ? "Stop making flesh"
                                        : node < 0                         ? "Make flesh"
                                                                           : "Make flesh of the bone",
                               .hint = "Simulate it as a soft body, to swing on its bones"};
-    if (!in->core->app.in_page && inspector_button(in, ui_row(ui, UI_ROW), &flesh)) rigs_make_flesh(in->core, 0);
-    r = inspector_labelled(in, "bone");
-    if (node < 0) {
-        ui_label(ui, r, "click one on the stage", theme()->text_dim);
-        return;
-    }
-    ui_label(ui, r, bones_character(in->core, owner)->gltf.nodes[node].name, theme()->text);
-    const struct rect row = ui_row(ui, UI_ROW);
-    const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
-    for (int i = 0; i < 2; i++) {
-        const struct rect button = {i > 0 ? row.x + (widths[0] + 6) : row.x, row.y + 2, widths[i], row.h - 4};
-        if (inspector_button(in, button, &buttons[i])) bones_make_chain(in->core, i > 0);
-    }
+    r = ui_row(ui, UI_ROW);
+    if (inspector_button(in, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, &flesh)) rigs_make_flesh(in->core, 0);
 }
