@@ -316,12 +316,9 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
         const struct drive *drive = &model->drives[d];
         const wiggly_curve *curve = &posing->evaluation->curves[drive->spline];
         const double lag = radians(drive->lag), c = maths_cos(lag), s = maths_sin(lag);
-        const bool hangs = posing_hangs(posing->document, drive->spline);
         for (int i = 0; i < BLOCK * blocks; i++) {
             const int at = i < samples ? i : samples - 1;
-            const double y =
-                hangs ? evaluation_offset(posing->evaluation, posing->document, drive->spline, at) : curve->y[at];
-            one->re[i] = drive->amplitude * (y + curve->re[at] * c + curve->im[at] * s);
+            one->re[i] = drive->amplitude * (curve->y[at] + curve->re[at] * c + curve->im[at] * s);
             one->im[i] = drive->amplitude * (curve->im[at] * c - curve->re[at] * s);
             if (!coordinate->sq) continue;
             double weights[COORDINATE_PARTS];

@@ -21,13 +21,6 @@ void posing_base(const struct posing *posing, int rig, const struct by_hand *by_
     memcpy(base, sum.base, sizeof sum.base);
 }
 
-bool posing_hangs(const struct document *document, int spline)
-{
-    const struct joint_motion *motion =
-        spline < 0 ? NULL : document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM].motion;
-    return motion && motion->of == MOTION_BASE;
-}
-
 void posing_values(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
                    wiggly_value values[RIG_MAX_INPUTS])
 {
@@ -41,7 +34,7 @@ void posing_values(const struct posing *posing, int index, double position, cons
     for (int i = 0; i < inputs; i++) {
         const int spline = i < count ? channels[i].spline : rig_input(rig, i);
         values[i] = evaluation_at(posing->evaluation, spline, position);
-        if (i < count ? channels[i].of == PART_DISPLACEMENT : posing_hangs(posing->document, spline))
+        if (i < count && channels[i].of == PART_DISPLACEMENT)
             values[i].y = evaluation_offset(posing->evaluation, posing->document, spline, position);
         values[i].y += sum.input[i].y;
         values[i].re += sum.input[i].re;

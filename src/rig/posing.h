@@ -64,9 +64,6 @@ int rig_body(const struct document *document, int rig);
 /// The box around a posed rig that is a body, metres.
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 
-/// Whether a spline follows a base: what it drives hangs there, so only its displacement counts.
-bool posing_hangs(const struct document *document, int spline);
-
 /// The values of a rig's inputs, read its offset earlier, including motion by hand. Of PART_DISPLACEMENT y is how far settling knots have moved
 /// the equilibrium, without what that follows.
 void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,

@@ -143,7 +143,9 @@ double evaluation_offset(const struct evaluation *evaluation, const struct docum
     // y less what it follows, read between samples as y is: from up to four of them.
     enum { AROUND = 4 };
     const wiggly_curve *curve = &evaluation->curves[spline];
-    const double *own = track_of(evaluation, document, spline, PARAMETER_EQUILIBRIUM);
+    const struct param *follows = &of->parameter[PARAMETER_EQUILIBRIUM];
+    const bool hangs = follows->motion && follows->motion->of == MOTION_BASE; // y has been taken out
+    const double *own = hangs ? NULL : track_of(evaluation, document, spline, PARAMETER_EQUILIBRIUM);
     const int last = curve->samples - 1;
     const bool is_loop = curve->start == WIGGLY_LOOP;
     const double at = is_loop ? position - last * floor(position / last) : fmin(fmax(position, 0), last);
@@ -156,6 +158,38 @@ double evaluation_offset(const struct evaluation *evaluation, const struct docum
     }
     const wiggly_curve around = {.y = y, .re = none, .im = none, .samples = count, .mode = WIGGLY_CUBIC};
     return wiggly_evaluate(&around, at - from).y;
+}
+
+// --- a spline that hangs on a base
+//
+// The solver takes the base's motion as the equilibrium y, and what hangs there moves by x alone. So knots go in with y added, and
+// y is taken out of what comes back: values, curves and tracks are of x.
+
+/// The motion of the base that a spline hangs on, as described for the solver; NULL: it does not hang.
+static const double *base_of(const struct spline *spline, const wiggly_desc *desc)
+{
+    const struct joint_motion *motion = spline->parameter[PARAMETER_EQUILIBRIUM].motion;
+    return motion && motion->of == MOTION_BASE ? desc->equilibrium.track : NULL;
+}
+
+/// How fast it moves at a sample, as the solver sees it.
+static double base_speed(const double *base, const wiggly_desc *desc, int sample)
+{
+    const int last = desc->samples - 1;
+    const bool loops = desc->start == WIGGLY_LOOP, ends = sample == last && !loops;
+    const int behind = sample > 0 ? sample - 1 : loops && last > 0 ? last - 1 : 0;
+    const int ahead = sample < last ? sample + 1 : loops && last > 0 ? 1 : last;
+    return (base[ahead] - base[behind]) / (ends ? 1 : 2) / desc->step;
+}
+
+/// Takes the base out of a solved curve.
+static void take_base(const struct spline *spline, const wiggly_desc *desc, wiggly_curve *curve)
+{
+    const double *const base = base_of(spline, desc);
+    for (int i = 0; base && i < desc->samples; i++) {
+        curve->y[i] -= base[i];
+        curve->total[i] -= base[i];
+    }
 }
 
 /// What is to be solved for one spline, its knots left out; tracks point into the curves and into baked motions.
@@ -171,6 +205,7 @@ static wiggly_desc describe(const struct evaluation *evaluation, const struct do
     }
     desc.has_low = desc.low > -INFINITY;
     desc.has_high = desc.high < INFINITY;
+    if (base_of(document->splines[spline], &desc)) desc.has_low = desc.has_high = false; // they would hold y + x
     if (cubic && desc.mode != WIGGLY_CUBIC) {
         desc.mode = WIGGLY_CUBIC;
         desc.passive = WIGGLY_OSCILLATOR; // holds its last value, so that a tail does not wind through its body
@@ -182,6 +217,7 @@ static wiggly_desc describe(const struct evaluation *evaluation, const struct do
 static void add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots)
 {
     const struct spline *of = document->splines[spline];
+    const double *const base = base_of(of, desc);
     for (int i = 0; i < of->knot_count; i++) {
         const struct knot *knot = &of->knots[i];
         knots[i] = (wiggly_knot){.sample = document_sample(document, knot->frame),
@@ -193,6 +229,9 @@ static void add_knots(wiggly_desc *desc, const struct document *document, int sp
                                  .has_phase = knot->has_phase,
                                  .still = knot->still,
                                  .settles = knot->settles};
+        if (!base || knot->still) continue;
+        knots[i].value += base[knots[i].sample];
+        knots[i].slope += base_speed(base, desc, knots[i].sample);
     }
     desc->knots = knots;
     desc->knot_count = of->knot_count;
@@ -377,7 +416,12 @@ static wiggly_status solve_round(struct pinned *pinned, bool with_pins)
 {
     const wiggly_status status = wiggly_group_solve(pinned->solver, pinned->descs, pinned->weights, pinned->curves,
                                                     pinned->count, pinned->pins, with_pins ? pinned->held_count : 0);
-    for (int i = 0; i < pinned->count; i++) pinned->evaluation->curves[pinned->members[i]] = pinned->curves[i];
+    for (int i = 0; i < pinned->count; i++) {
+        const int s = pinned->members[i];
+        if (status < WIGGLY_ERROR_ARGUMENT)
+            take_base(pinned->document->splines[s], &pinned->descs[i], &pinned->curves[i]);
+        pinned->evaluation->curves[s] = pinned->curves[i];
+    }
     return status;
 }
 
@@ -880,7 +924,10 @@ static void solve_alone(struct evaluation *evaluation, const struct document *do
     add_knots(&desc, document, spline, storage->knots);
     wiggly_set_method(storage->solver, evaluation_method(evaluation));
     const wiggly_status status = wiggly_solve(storage->solver, &desc, curve);
-    if (status >= WIGGLY_ERROR_ARGUMENT) flatten(curve, &desc);
+    if (status >= WIGGLY_ERROR_ARGUMENT)
+        flatten(curve, &desc);
+    else
+        take_base(document->splines[spline], &desc, curve);
     count_solved(evaluation, document, spline, status);
 }
 
@@ -1118,9 +1165,19 @@ double evaluation_slope(const struct evaluation *evaluation, const struct docume
         desc.knots = &last;
         desc.knot_count = 1;
     }
-    const size_t numbers = CURVE_SLOPE_ROOM * (size_t)evaluation->samples;
-    double *room = desc.equilibrium.track ? need(numbers, sizeof *room) : NULL;
-    const double slope = curve_slope(&desc, &evaluation->curves[spline], sample, room);
+    const size_t samples = (size_t)evaluation->samples, numbers = CURVE_SLOPE_ROOM * samples;
+    const double *const base = base_of(of, &desc);
+    double *room = desc.equilibrium.track ? need(numbers + 2 * samples, sizeof *room) : NULL;
+    wiggly_curve whole = evaluation->curves[spline];
+    if (base) { // as it was solved
+        whole.y = room + numbers;
+        whole.total = whole.y + samples;
+        for (size_t i = 0; i < samples; i++) {
+            whole.y[i] = evaluation->curves[spline].y[i] + base[i];
+            whole.total[i] = evaluation->curves[spline].total[i] + base[i];
+        }
+    }
+    const double slope = curve_slope(&desc, &whole, sample, room) - (base ? base_speed(base, &desc, sample) : 0);
     free(room);
     return slope;
 }

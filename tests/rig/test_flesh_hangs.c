@@ -2,6 +2,7 @@
 #include "gltf_builder.h"
 #include "rig/import.h"
 #include "rig/posing.h"
+#include "scene/edit.h"
 #include <complex.h>
 
 enum { KEYS = 25 };
@@ -64,13 +65,47 @@ TEST(flesh_answers_its_bone_and_closes)
             const double wanted = cimag(answer * cexp(I * w * s / 24));
             assert_near(curve->re[s], wanted, 0.05 * cabs(answer));
             posing_values(&posing, 0, s, NULL, values);
+            assert_near(curve->y[s], 0, 0);
+            assert_near(curve->total[s], curve->re[s], 1e-12);
             assert_near(values[0].y, 0, 0);
             assert_near(values[0].re, curve->re[s], 1e-12);
             most = fmax(most, fabs(curve->re[s] - wanted));
         }
         print_message("off by %.2g of the amplitude\n", most / cabs(answer));
         assert_near(curve->re[24], curve->re[0], 1e-9);
-        assert_near(curve->y[24], curve->y[0], 1e-9);
+        opened_free(&opened);
+    }
+}
+
+/// Knots of flesh are of x, wherever the base is: a value, a slope, and a value where it settles. A still knot leaves x to the base alone.
+TEST(knots_of_flesh_are_of_the_flesh)
+{
+    static const struct knot knots[] = {
+        {.frame = 4, .value = 0.5, .has_slope = true, .slope = 3, .stiffness = KNOT_DEFAULT_STIFFNESS},
+        {.frame = 12, .still = true, .stiffness = KNOT_DEFAULT_STIFFNESS},
+        {.frame = 18, .value = -0.25, .settles = true, .stiffness = KNOT_DEFAULT_STIFFNESS}};
+    const struct param rest = param_number(WIGGLY_REST);
+    double slope = 0;                   // without a base
+    for (int row = 0; row < 3; row++) { // without one; with one; and one that travels
+        struct opened opened;
+        assert_done(opened_read(&opened, write_swaying(row == 2 ? 1.5f : 0, 0, 0), &error));
+        struct document *document = opened.document;
+        const int each = document->substeps;
+        assert_done(edit_parameter(document, 0, PARAMETER_START, &rest, &error));
+        if (row == 0)
+            assert_done(edit_parameter(document, 0, PARAMETER_EQUILIBRIUM, &(struct param){.track = -1}, &error));
+        opened_solve(&opened, SOLVER_BY_LENGTH);
+        const double *const total = opened.evaluation.curves[0].total;
+        const double alone = total[12 * each];
+        for (int k = 0; k < 3; k++) assert_done(edit_knot_insert(document, 0, &knots[k], &error));
+        opened_solve(&opened, SOLVER_BY_LENGTH);
+        assert_near(total[4 * each], 0.5, 1e-9);
+        assert_near(total[12 * each], alone, 1e-9);
+        assert_near(total[18 * each], -0.25, 1e-9);
+        assert_near(evaluation_offset(&opened.evaluation, document, 0, 18 * each), -0.25, 1e-9);
+        const double here = evaluation_slope(&opened.evaluation, document, 0, 4 * each);
+        if (row == 0) slope = here;
+        assert_near(here, slope, 0.5); // the base alone moves at 1.9
         opened_free(&opened);
     }
 }
