@@ -87,7 +87,12 @@ static inline int selected(const struct editor *e) { return selected_count(&e->c
 static inline const char *copied(const struct editor *e) { return e->core.clipboard; }
 static inline struct brush *brush_of(struct editor *e) { return &e->core.focus.brush; }
 /// What a command lacks, or NULL.
-static inline const char *missing(const struct editor *e, unsigned needs) { return need_missing(&e->core, needs); }
+static inline const char *missing(const struct editor *e, unsigned needs)
+{
+    const char *all[NEEDS_COUNT];
+    needs_missing(&e->core, all);
+    return all[needs];
+}
 static inline bool is_dragging(const struct editor *e) { return e->core.input.drag.owner != NULL; }
 /// What a drag edits, as Undo will say it; NULL: nothing.
 static inline const char *dragged(const struct editor *e) { return e->core.input.drag.label; }

@@ -9,7 +9,6 @@
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
 #include "editor/state.h"
-#include "scene/parameter.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -180,8 +179,10 @@ enum { CTRL = MOD_CTRL, SHIFT = MOD_SHIFT, ALT = MOD_ALT, CTRL_SHIFT = MOD_CTRL 
         .name = (named), .also = (words), .about = ABOUT_##heading, .at = (places), .needs = NEEDS_##need,           \
         .when = (works), function, .argument = (number), .chord = __VA_ARGS__                                        \
     }
-/// A row only in the palette.
-#define PALETTE(named, need, function, number) COMMAND(named, NOTHING, 0, need, 0, function, number, {0})
+/// A row that F1 leaves out: in the menu of its places, and in the palette, which finds it by other words, too.
+#define MENU(words, named, places, need, function, number)                                                           \
+    ALSO(words, named, NOTHING, places, need, 0, function, number, {0})
+#define PALETTE(named, need, function, number) MENU("", named, 0, need, function, number)
 /// A row of the list that Examples opens.
 #define EXAMPLE(named, number)                                                                                       \
     COMMAND(named, NOTHING, IN_EXAMPLES, NOTHING, 0, .request = REQUEST_FIGURE, number, {0})
@@ -397,59 +398,47 @@ const struct command commands[] = {
     ALSO("picture image", "Screenshot", WINDOW, 0, NOTHING, ANY_TIME, .request = REQUEST_SCREENSHOT, 0, {KEY_F12, 0}),
 
     // Not in F1.
-    ALSO("loop rest close", "Unfold Spline: kind, equilibrium, start", NOTHING, 0, SPLINE, 0,
-         .section = "section.spline", 0, {0}),
+    MENU("loop rest close", "Unfold Spline: kind, equilibrium, start", 0, SPLINE, .section = "section.spline", 0),
     PALETTE("Unfold Rigs", NOTHING, .section = "section.rigs", 0),
-    ALSO("lag delay offset", "Unfold Tail or chain set-up: channels", NOTHING, 0, TAIL, 0, .section = "section.tail",
-         0, {0}),
+    MENU("lag delay offset", "Unfold Tail or chain set-up: channels", 0, TAIL, .section = "section.tail", 0),
     PALETTE("Unfold Character: clip, bones, channels, paint", MODEL, .section = "section.character", 0),
     PALETTE("Unfold Pins", PINNABLE, .section = "section.pins", 0),
-    ALSO("oscillator filter passive phase curve imaginary time", "Unfold Advanced: bandwidth, calm, settling",
-         NOTHING, 0, SPLINE, 0, .section = "section.advanced", 0, {0}),
-    ALSO("clamp lock range", "Unfold Limits and steadiness", NOTHING, 0, SPLINE, 0, .section = "section.limits", 0,
-         {0}),
+    MENU("oscillator filter passive phase curve imaginary time", "Unfold Advanced: bandwidth, calm, settling", 0,
+         SPLINE, .section = "section.advanced", 0),
+    MENU("clamp lock range", "Unfold Limits and steadiness", 0, SPLINE, .section = "section.limits", 0),
     PALETTE("Unfold Variation", SWING, .section = "section.variation", 0),
-    ALSO("fps duration length end start", "First and last frame, frame rate", NOTHING, 0, NOTHING, 0,
-         .inspector = inspector_edit_range, 0, {0}),
+    MENU("fps duration length end start", "First and last frame, frame rate", 0, NOTHING,
+         .inspector = inspector_edit_range, 0),
     PALETTE("Unfold Scene", NOTHING, .section = "section.scene", 0),
     PALETTE("Unfold History", NOTHING, .section = "section.history", 0),
-    ALSO("flip invert", "Paste mirrored", NOTHING, 0, SPLINE, 0, .run = run_clipboard,
-         CLIPBOARD_PASTE + PASTE_MIRRORED, {0}),
-    ALSO("flip invert negative", "Mirror the selection about zero", NOTHING, 0, SELECTED, 0,
-         .core = core_mirror_knots, 0, {0}),
+    MENU("flip invert", "Paste mirrored", 0, SPLINE, .run = run_clipboard, CLIPBOARD_PASTE + PASTE_MIRRORED),
+    MENU("flip invert negative", "Mirror the selection about zero", 0, SELECTED, .core = core_mirror_knots, 0),
     PALETTE("Add a tail", NOTHING, .inspector = inspector_add, ADD_TAIL),
-    ALSO("import load", "Add a character or model from a file", NOTHING, 0, NOTHING, 0, .inspector = inspector_add,
-         ADD_FILE, {0}),
-    ALSO("reference footage video image", "Background picture or film", NOTHING, 0, NOTHING, 0,
-         .inspector = inspector_add, ADD_FILE, {0}),
+    MENU("import load", "Add a character or model from a file", 0, NOTHING, .inspector = inspector_add, ADD_FILE),
+    MENU("reference footage video image", "Background picture or film", 0, NOTHING, .inspector = inspector_add,
+         ADD_FILE),
     PALETTE("Copy the rig", RIG, .inspector = inspector_add, ADD_COPY),
     PALETTE("Feel like a cat's tail", SPLINE, .inspector = inspector_preset, 0),
     PALETTE("Feel like a whip", SPLINE, .inspector = inspector_preset, 1),
-    ALSO("weight mass", "Feel heavy", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 2, {0}),
+    MENU("weight mass", "Feel heavy", 0, SPLINE, .inspector = inspector_preset, 2),
     PALETTE("Feel like jelly", SPLINE, .inspector = inspector_preset, 3),
     PALETTE("Feel like an antenna", SPLINE, .inspector = inspector_preset, 4),
     PALETTE("Forget before", NOTHING, .core = take_keep, false),
     PALETTE("Roll a variation of the motion", SWING, .inspector = inspector_roll, 0),
     PALETTE("Play at normal speed", NOTHING, .core = playback_change_speed, 0),
-    ALSO("new curve", "Add a spline", NOTHING, 0, NOTHING, 0, .core = spline_list_change, LIST_ADD, {0}),
-    ALSO("copy curve", "Duplicate the spline", NOTHING, ON_ROW, SPLINE, 0, .core = spline_list_change, LIST_COPY,
-         {0}),
-    ALSO("remove curve", "Delete the spline", NOTHING, ON_ROW, SPLINE, 0, .core = spline_list_change, LIST_REMOVE,
-         {0}),
+    MENU("new curve", "Add a spline", 0, NOTHING, .core = spline_list_change, LIST_ADD),
+    MENU("copy curve", "Duplicate the spline", ON_ROW, SPLINE, .core = spline_list_change, LIST_COPY),
+    MENU("remove curve", "Delete the spline", ON_ROW, SPLINE, .core = spline_list_change, LIST_REMOVE),
     PALETTE("Move the spline up in the list", SPLINE, .core = spline_list_change, LIST_UP),
     PALETTE("Move the spline down in the list", SPLINE, .core = spline_list_change, LIST_DOWN),
-    ALSO("isolate mute", "Solo: show only this spline, or all again", NOTHING, ON_ROW, SPLINE, 0,
-         .core = spline_list_change, LIST_SOLO, {0}),
-    ALSO("mute eye", "Hide the spline, or show it", NOTHING, ON_ROW, SPLINE, 0, .core = spline_list_change, LIST_HIDE,
-         {0}),
-    ALSO("protect", "Lock the spline, or unlock it", NOTHING, ON_ROW, SPLINE, 0, .core = spline_list_change,
-         LIST_LOCK, {0}),
-    ALSO("group", "Put into a folder, or take out", NOTHING, ON_ROW, SPLINE, 0, .core = spline_list_change,
-         LIST_FOLDER, {0}),
+    MENU("isolate mute", "Solo: show only this spline, or all again", ON_ROW, SPLINE, .core = spline_list_change,
+         LIST_SOLO),
+    MENU("mute eye", "Hide the spline, or show it", ON_ROW, SPLINE, .core = spline_list_change, LIST_HIDE),
+    MENU("protect", "Lock the spline, or unlock it", ON_ROW, SPLINE, .core = spline_list_change, LIST_LOCK),
+    MENU("group", "Put into a folder, or take out", ON_ROW, SPLINE, .core = spline_list_change, LIST_FOLDER),
     PALETTE("Phase map on or off", PAINT, .core = core_flip, SWITCH_PHASE_MAP),
-    ALSO("clean reset", "Remove all paint", NOTHING, 0, PAINT, 0, .core = characters_clean_paint, 0, {0}),
-    ALSO("flip symmetry", "Mirror the chain to the other side", NOTHING, 0, TWIN, 0, .inspector = inspector_mirror, 0,
-         {0}),
+    MENU("clean reset", "Remove all paint", 0, PAINT, .core = characters_clean_paint, 0),
+    MENU("flip symmetry", "Mirror the chain to the other side", 0, TWIN, .inspector = inspector_mirror, 0),
     PALETTE("Record the next drag of the body", BODY, .core = core_flip, SWITCH_RECORD),
     COMMAND("Nudge right", NOTHING, 0, CHOSEN, REPEATS | IN_STEPS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT}),
     COMMAND("Nudge left", NOTHING, 0, CHOSEN, REPEATS | IN_STEPS, .run = run_nudge, WAY_LEFT, {KEY_LEFT, ALT}),

@@ -11,90 +11,47 @@ const char *const about_titles[ABOUT_COUNT] = {
     [ABOUT_FILE] = "File and edits", [ABOUT_WINDOW] = "Window",
 };
 
-static const char *const missing[] = {
-    [NEEDS_UNDO] = "There is nothing to undo.",
-    [NEEDS_REDO] = "There is nothing to redo.",
-    [NEEDS_SPLINE] = "Add a spline first.",
-    [NEEDS_SWING] = "Choose a spline that swings first: a cubic does not.",
-    [NEEDS_KNOTS] = "Insert a knot first.",
-    [NEEDS_SELECTED] = "Select a knot first.",
-    [NEEDS_CHOSEN] = "Select a knot or a pin first.",
-    [NEEDS_PIN] = "Select a pin first.",
-    [NEEDS_BONE] = "Click a bone of a character first.",
-    [NEEDS_RIG] = "Add a tail or a character first.",
-    [NEEDS_TAIL] = "Add a tail or a chain first.",
-    [NEEDS_TWIN] = "Make a chain of bones with a free other side first (ear_L, ear_R).",
-    [NEEDS_PINNABLE] = "Add a tail, a chain or a soft character first.",
-    [NEEDS_BODY] = "Add a tail first.",
-    [NEEDS_CHARACTER] = "Add a soft character first.",
-    [NEEDS_MODEL] = "Open a character from a file first.",
-    [NEEDS_PAINT] = "Select a soft character first.",
-    [NEEDS_PAGE] = "Links are for the app in a browser.",
-    [NEEDS_NO_PAGE] = "Close the page instead: unsaved work is kept.",
-};
-
-static bool is_met(const struct core *core, enum need need)
+void needs_missing(const struct core *core, const char *missing[NEEDS_COUNT])
 {
     const struct document *document = core->document;
     const struct spline *spline = core_active_spline(core);
-    const bool has_tail =
-        document_find_rig(document, RIG_TAIL, 0) >= 0 || document_find_rig(document, RIG_CHAIN, 0) >= 0;
+    const bool knots = selected_count(core) > 0, pin = pins_any_selected(core);
+    const bool tail = document_find_rig(document, RIG_TAIL, 0) >= 0;
+    const bool bent = tail || document_find_rig(document, RIG_CHAIN, 0) >= 0;
     int model;
-    switch (need) {
-    case NEEDS_UNDO:
-        return history_done(core->history) > 0;
-    case NEEDS_REDO:
-        return history_done(core->history) < history_count(core->history);
-    case NEEDS_SPLINE:
-        return spline;
-    case NEEDS_SWING:
-        return spline && spline_mode(spline) != WIGGLY_CUBIC;
-    case NEEDS_KNOTS:
-        return spline && spline->knot_count > 0;
-    case NEEDS_SELECTED:
-        return selected_count(core) > 0;
-    case NEEDS_CHOSEN:
-        return selected_count(core) > 0 || pins_any_selected(core);
-    case NEEDS_PIN:
-        return pins_any_selected(core);
-    case NEEDS_BONE:
-        return bones_selected(core, &model) >= 0;
-    case NEEDS_RIG:
-        return document->rig_count > 0;
-    case NEEDS_TAIL:
-        return has_tail;
-    case NEEDS_TWIN:
-        return bones_mirrorable(core, 0) >= 0;
-    case NEEDS_PINNABLE:
-        return has_tail || characters_rig(core) >= 0;
-    case NEEDS_BODY:
-        return document_find_rig(document, RIG_TAIL, 0) >= 0;
-    case NEEDS_CHARACTER:
-        return characters_rig(core) >= 0;
-    case NEEDS_MODEL:
-        return document_find_rig(document, RIG_MODEL, 0) >= 0;
-    case NEEDS_PAINT:
-        return characters_coordinate(core);
-    case NEEDS_PAGE:
-        return core->app.in_page;
-    case NEEDS_NO_PAGE:
-        return !core->app.in_page;
-    case NEEDS_NOTHING:
-    case NEEDS_COUNT:
-        break;
-    }
-    return true;
+    const struct {
+        bool is_met;
+        const char *otherwise;
+    } needs[NEEDS_COUNT] = {
+        [NEEDS_NOTHING] = {true, NULL},
+        [NEEDS_UNDO] = {history_done(core->history) > 0, "There is nothing to undo."},
+        [NEEDS_REDO] = {history_done(core->history) < history_count(core->history), "There is nothing to redo."},
+        [NEEDS_SPLINE] = {spline, "Add a spline first."},
+        [NEEDS_SWING] = {spline && spline_mode(spline) != WIGGLY_CUBIC,
+                         "Choose a spline that swings first: a cubic does not."},
+        [NEEDS_KNOTS] = {spline && spline->knot_count > 0, "Insert a knot first."},
+        [NEEDS_SELECTED] = {knots, "Select a knot first."},
+        [NEEDS_CHOSEN] = {knots || pin, "Select a knot or a pin first."},
+        [NEEDS_PIN] = {pin, "Select a pin first."},
+        [NEEDS_BONE] = {bones_selected(core, &model) >= 0, "Click a bone of a character first."},
+        [NEEDS_RIG] = {document->rig_count > 0, "Add a tail or a character first."},
+        [NEEDS_TAIL] = {bent, "Add a tail or a chain first."},
+        [NEEDS_TWIN] = {bones_mirrorable(core, 0) >= 0,
+                        "Make a chain of bones with a free other side first (ear_L, ear_R)."},
+        [NEEDS_PINNABLE] = {bent || characters_rig(core) >= 0, "Add a tail, a chain or a soft character first."},
+        [NEEDS_BODY] = {tail, "Add a tail first."},
+        [NEEDS_MODEL] = {document_find_rig(document, RIG_MODEL, 0) >= 0, "Open a character from a file first."},
+        [NEEDS_PAINT] = {characters_coordinate(core), "Select a soft character first."},
+        [NEEDS_PAGE] = {core->app.in_page, "Links are for the app in a browser."},
+        [NEEDS_NO_PAGE] = {!core->app.in_page, "Close the page instead: unsaved work is kept."},
+    };
+    for (int need = 0; need < NEEDS_COUNT; need++) missing[need] = needs[need].is_met ? NULL : needs[need].otherwise;
 }
 
 bool command_runs(const struct command *command)
 {
     return command->run || command->core || command->curves || command->inspector || command->knot ||
            command->section || command->request;
-}
-
-const char *need_missing(const struct core *core, enum need need)
-{
-    return is_met(core, need) ? NULL : missing[need];
 }
 
 const char *command_key_name(int key)

@@ -57,7 +57,6 @@ enum need {
     NEEDS_TWIN, ///< a chain that can be mirrored
     NEEDS_PINNABLE,
     NEEDS_BODY,
-    NEEDS_CHARACTER,
     NEEDS_MODEL,
     NEEDS_PAINT, ///< a character with a coordinate
     NEEDS_PAGE,  ///< the app runs in a browser
@@ -106,8 +105,8 @@ struct command {
 
 /// false for a gesture.
 bool command_runs(const struct command *command);
-/// What is missing, as in "Select a knot first."; NULL: nothing.
-const char *need_missing(const struct core *core, enum need need);
+/// What is missing for each need, as in "Select a knot first."; NULL: nothing.
+void needs_missing(const struct core *core, const char *missing[NEEDS_COUNT]);
 /// Keys that a browser keeps for itself: reload, its address, tabs and history.
 bool command_is_browsers(int key, unsigned mods);
 /// Its key, "Ctrl+Shift+Z", or its gesture; "" for neither, or, in a page, for a key that is the browser's own.

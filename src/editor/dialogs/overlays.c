@@ -16,7 +16,7 @@ enum { COMMANDS_MOST = 320 };
 /// The commands that match the typed text, best first, or all of them under headings.
 struct commands_found {
     const struct command *list[COMMANDS_MOST]; ///< NULL: a heading
-    const char *missing[COMMANDS_MOST];        ///< from need_missing(); the heading
+    const char *missing[COMMANDS_MOST];        ///< from needs_missing(); the heading
     int count;
 };
 
@@ -106,9 +106,9 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
     const int count = dialogs->commands.count;
     const struct ui_filter *filter = &dialogs->lookup.filter;
     const bool menu = dialogs->lookup.kind == LOOKUP_MENU, runs = menu || dialogs->lookup.kind == LOOKUP_PALETTE;
-    const char *missing[NEEDS_COUNT];
+    const char *missing[NEEDS_COUNT] = {NULL};
     enum fit fits[COMMANDS_MOST], best = FIT_NOT;
-    for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = runs ? need_missing(core, need) : NULL;
+    if (runs) needs_missing(core, missing);
     for (int i = 0; i < count; i++) {
         const struct command *command = &commands[i];
         char keys[COMMAND_KEYS], text[256];
