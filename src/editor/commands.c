@@ -38,7 +38,7 @@ static void run_show(struct editor *e, int what)
 
 static void run_insert(struct editor *e, int argument)
 {
-    core_insert_on_curve(&e->core, core_frame(&e->core), true, (enum holds)argument);
+    core_insert_knot(&e->core, core_frame(&e->core), NAN, true, (enum holds)argument);
 }
 
 /// Escape undoes one mode at a time: brush, bone picking, selected bone, selected pin, selection.

@@ -25,58 +25,37 @@ static bool is_locked(struct core *core)
     return true;
 }
 
-/// Inserts and selects a knot, or selects the one at that sample.
-static void insert_at(struct core *core, const struct knot *knot)
-{
-    const struct document *document = core->document;
-    int sample = document_sample(document, knot->frame);
-    if (is_locked(core)) return;
-    int at = spline_find_knot(document, core_active_spline(core), sample);
-    if (at < 0) {
-        if (!core_step(core, knot->has_phase ? "Insert pose" : "Insert knot", 0)) return;
-        if (!core_put_knot(core, core->focus.active, knot)) return;
-        at = spline_find_knot(document, core_active_spline(core), sample);
-    }
-    if (at < 0) return;
-    core_select_only(core, core_active_spline(core)->knots[at].id);
-    core_edited(core, -1);
-}
-
-/// A frame for a knot of the active spline: in range, and whole if `snap`.
-static double knot_frame(const struct core *core, double frame, bool snap)
-{
-    const struct document *document = core->document;
-    const struct spline *spline = core_active_spline(core);
-    double last = document_frame(document, document_last_knot_sample(document, spline));
-    return fmin(fmax(snap ? round(frame) : frame, document->first_frame), last);
-}
-
-void core_insert_knot(struct core *core, double frame, double value, bool snap)
-{
-    if (!core_active_spline(core) || !isfinite(frame)) return;
-    const struct knot knot = {
-        .frame = knot_frame(core, frame, snap), .value = value, .stiffness = KNOT_DEFAULT_STIFFNESS};
-    insert_at(core, &knot);
-}
-
 static const char no_phase[] = "Only a wiggly spline has a phase. Press M to change the kind.";
 
-void core_insert_on_curve(struct core *core, double frame, bool snap, enum holds holds)
+void core_insert_knot(struct core *core, double frame, double value, bool snap, enum holds holds)
 {
-    const bool pose = holds == HOLDS_POSE;
+    const struct document *document = core->document;
     const struct spline *spline = core_active_spline(core);
+    const bool pose = holds == HOLDS_POSE;
     if (!spline || !isfinite(frame)) return;
     if (pose && spline_mode(spline) != WIGGLY_COMPLEX) {
         core_message(core, false, no_phase);
         return;
     }
-    struct knot knot = {
-        .frame = knot_frame(core, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_phase = pose};
-    const wiggly_value here =
-        evaluation_at(core->evaluation, core->focus.active, document_sample(core->document, knot.frame));
-    knot.value = here.y + here.re;
+    const double last = document_frame(document, document_last_knot_sample(document, spline));
+    struct knot knot = {.frame = fmin(fmax(snap ? round(frame) : frame, document->first_frame), last),
+                        .value = value,
+                        .stiffness = KNOT_DEFAULT_STIFFNESS,
+                        .has_phase = pose};
+    const int sample = document_sample(document, knot.frame);
+    const wiggly_value here = evaluation_at(core->evaluation, core->focus.active, sample);
+    if (isnan(value)) knot.value = here.y + here.re;
     if (pose) knot.phase = here.im;
-    insert_at(core, &knot);
+    if (is_locked(core)) return;
+    int at = spline_find_knot(document, spline, sample);
+    if (at < 0) {
+        if (!core_step(core, pose ? "Insert pose" : "Insert knot", 0)) return;
+        if (!core_put_knot(core, core->focus.active, &knot)) return;
+        at = spline_find_knot(document, core_active_spline(core), sample);
+    }
+    if (at < 0) return;
+    core_select_only(core, core_active_spline(core)->knots[at].id);
+    core_edited(core, -1);
 }
 
 void core_set_hold(struct core *core, int holds)
@@ -96,23 +75,22 @@ void core_set_hold(struct core *core, int holds)
     }
     if (all) holds = HOLDS_VALUE;
     if (!core_step(core, labels[holds], 0)) return;
-    core_collect(core, false);
-    for (int i = 0; i < core->step.originals.count; i++) {
-        const int of = core->step.originals.list[i].spline;
-        const struct spline *spline = core->document->splines[of];
-        const struct knot *was = &core->step.originals.list[i].knot;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        const struct spline *spline = core->document->splines[at.spline];
+        const struct knot *was = knot_at(core->document, at);
         const int sample = document_sample(core->document, was->frame);
         struct knot knot = *was;
         if (holds == HOLDS_POSE && (spline_mode(spline) != WIGGLY_COMPLEX || was->has_phase)) continue;
 
         // A pose is as seen now. A still knot becomes a value again by the one it had, if it had one.
         knot.still = holds == HOLDS_STILL;
-        if (!knot.still && (holds == HOLDS_POSE || isnan(was->value))) knot.value = core_knot_value(core, of, was);
+        if (!knot.still && (holds == HOLDS_POSE || isnan(was->value)))
+            knot.value = core_knot_value(core, at.spline, was);
         knot.has_phase = holds == HOLDS_POSE;
-        knot.phase = knot.has_phase ? evaluation_at(core->evaluation, of, sample).im : 0;
+        knot.phase = knot.has_phase ? evaluation_at(core->evaluation, at.spline, sample).im : 0;
         if (knot.still) knot.has_slope = false;
         core_hold(spline, &knot, why);
-        core_put_knot(core, of, &knot);
+        core_put_knot(core, at.spline, &knot);
     }
     core_edited(core, -1);
     if (holds == HOLDS_STILL)
@@ -134,13 +112,10 @@ void core_toggle_settles(struct core *core, int unused)
         return;
     }
     if (!core_step(core, all ? "Settle off" : "Settle here", 0)) return;
-    core_collect(core, false);
-    for (int i = 0; i < core->step.originals.count; i++) {
-        const struct original *original = &core->step.originals.list[i];
-        struct knot knot = original->knot;
-        if (knot.still) continue;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        struct knot knot = *knot_at(core->document, at);
         knot.settles = !all;
-        core_put_knot(core, original->spline, &knot);
+        if (!knot.still) core_put_knot(core, at.spline, &knot);
     }
     core_edited(core, -1);
 }
@@ -344,19 +319,14 @@ bool core_copy_knots(struct core *core, bool cut)
 }
 
 /// The knot upside down: its value, slope and phase, about zero.
-static struct knot mirrored(const struct knot *knot)
+static struct knot mirrored(const void *how, const struct original *original)
 {
-    struct knot turned = *knot;
-    turned.value = -knot->value;
-    turned.slope = -knot->slope;
-    turned.phase = -knot->phase;
-    return turned;
-}
-
-static struct knot mirrored_original(const void *how, const struct original *original)
-{
+    struct knot turned = original->knot;
     (void)how;
-    return mirrored(&original->knot);
+    turned.value *= -1;
+    turned.slope *= -1;
+    turned.phase *= -1;
+    return turned;
 }
 
 void core_mirror_knots(struct core *core, int unused)
@@ -364,7 +334,7 @@ void core_mirror_knots(struct core *core, int unused)
     char why[STOPPED_SIZE] = "";
     (void)unused;
     if (collect(core) == 0 || !core_step(core, "Mirror knots", 0)) return;
-    originals_put(core, mirrored_original, NULL, why);
+    originals_put(core, mirrored, NULL, why);
     core_edited(core, -1);
     if (*why) core_stopped(core, why);
 }
@@ -413,7 +383,8 @@ void core_paste_knots(struct core *core, const char *text)
     for (int k = 0; k < list.count && good; k++) {
         const char *name = list.splines ? list.splines[k] : NULL;
         const int named = name ? document_find_spline(document, name) : -1;
-        const struct knot knot = paste == PASTE_MIRRORED ? mirrored(&list.knots[k]) : list.knots[k];
+        const struct original pasted = {.knot = list.knots[k]};
+        const struct knot knot = paste == PASTE_MIRRORED ? mirrored(NULL, &pasted) : pasted.knot;
         good = insert_copy(core, named >= 0 ? named : core->focus.active, &knot, shift);
     }
     if (good) select_from(core, first_id);
@@ -469,9 +440,9 @@ void core_duplicate_knots(struct core *core)
     if (!good) return;
     select_from(core, first_id);
     say_count(core, "Duplicated", count);
-    if (!longer) return;
-    core_message(core, false, "Duplicated %d knot%s; the scene now ends on frame %d.", count, count == 1 ? "" : "s",
-                 end);
+    if (longer)
+        core_message(core, false, "Duplicated %d knot%s; the scene now ends on frame %d.", count,
+                     count == 1 ? "" : "s", end);
 }
 
 // --- cleaning up: fewer knots, and smoother ones

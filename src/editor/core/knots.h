@@ -4,10 +4,9 @@
 
 #include "editor/core/core.h"
 
-/// Inserts and selects a knot at a frame (whole if `snap`), or selects the one there.
-void core_insert_knot(struct core *core, double frame, double value, bool snap);
-/// Inserts a knot where the curve is: a value, or a pose. Without wind-up, between knots, the curve stays as it is.
-void core_insert_on_curve(struct core *core, double frame, bool snap, enum holds holds);
+/// Inserts and selects a value or a pose at a frame (whole if `snap`), or selects the knot there. Value NAN: where the curve is; without wind-up,
+/// between knots, the curve stays as it is.
+void core_insert_knot(struct core *core, double frame, double value, bool snap, enum holds holds);
 /// Deletes the selected pin, else the selected knots.
 void core_delete(struct core *core, int unused);
 /// Selects a knot and nothing else, not even a pin.

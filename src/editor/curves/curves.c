@@ -556,11 +556,11 @@ static void press_plot(void *room, struct core *core, const struct hover *hover,
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
     if (event->clicks == 2 && hover->thing) {
         core_activate(core, hover->spline);
-        core_insert_on_curve(core, curves_frame(core, event->x), drag_snaps(core, event->mods),
-                             event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
+        core_insert_knot(core, curves_frame(core, event->x), NAN, drag_snaps(core, event->mods),
+                         event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
     } else if (event->clicks == 2) {
         double value = core_round(curves_value(core, event->y), 0.01 / curves_pixels_per_value(core));
-        core_insert_knot(core, curves_frame(core, event->x), value, drag_snaps(core, event->mods));
+        core_insert_knot(core, curves_frame(core, event->x), value, drag_snaps(core, event->mods), HOLDS_VALUE);
     } else {
         if (hover->thing && !keeps) core_choose(core, hover->spline);
         box_begin(curves, core, event);

@@ -760,8 +760,8 @@ static void press_row(void *room, struct core *core, const struct hover *hover, 
     if (!keeps || event->clicks == 2) core_choose(core, hover->spline);
     if (!inside) return;
     if (event->clicks == 2) {
-        core_insert_on_curve(core, curves_frame(core, event->x), drag_snaps(core, event->mods),
-                             event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
+        core_insert_knot(core, curves_frame(core, event->x), NAN, drag_snaps(core, event->mods),
+                         event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
         return;
     }
     box_begin(curves, core, event);
