@@ -266,19 +266,13 @@ void core_refresh(struct core *core)
 void core_undo(struct core *core, int direction)
 {
     struct history *history = core->history;
+    const bool undoes = direction < 0;
     if (history_is_open(history)) return;
-    const char *label = direction < 0 ? history_undo_label(history) : history_redo_label(history);
-    if (label) {
-        core_message(core, false, "%s: %s", direction < 0 ? "Undone" : "Redone", label);
-    } else {
-        core_message(core, false, "Nothing to %s", direction < 0 ? "undo" : "redo");
-    }
-    if (direction < 0) {
-        history_undo(history);
-    } else {
-        history_redo(history);
-    }
-    see_again(core, direction < 0);
+    const char *label = undoes ? history_undo_label(history) : history_redo_label(history);
+    if (label) core_message(core, false, "%s: %s", undoes ? "Undone" : "Redone", label);
+    if (!label) core_message(core, false, "Nothing to %s", undoes ? "undo" : "redo");
+    (undoes ? history_undo : history_redo)(history);
+    see_again(core, undoes);
 }
 
 void core_jump(struct core *core, size_t done)

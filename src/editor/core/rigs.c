@@ -126,52 +126,42 @@ void rigs_copy(struct core *core, int rig)
     core->view.refit_stage = done;
 }
 
-/// What goes with a rig: its chains, and splines that move nothing else.
-struct removal {
-    const struct document *document;
-    int rig;
-    bool *mine, *others; ///< by spline: used by removed rigs, by others
-};
-
-static bool removal_has(const struct removal *removal, int rig)
+/// Whether a rig goes with one that is removed: it is that one or a chain of it.
+static bool goes_with(const struct document *document, int removed, int rig)
 {
-    return rig == removal->rig || rig_body(removal->document, rig) == removal->rig;
+    return rig == removed || rig_body(document, rig) == removed;
 }
 
-static void removal_survey(struct removal *removal, const struct document *document, int rig)
+/// Whether a spline moves something, and that all goes with a rig.
+static bool moves_alone(const struct document *document, int spline, int rig)
 {
-    const size_t count = (size_t)document->spline_count + 1;
-    *removal = (struct removal){document, rig, need_zeroed(count, sizeof(bool)), need_zeroed(count, sizeof(bool))};
+    bool moves = false;
     for (struct reference reference = {0}; reference_next(document, &reference);) {
-        const bool stays = reference.kind == REFERENCE_TRACK || !removal_has(removal, reference.owner);
-        (stays ? removal->others : removal->mine)[reference.spline] = true;
+        if (reference.spline != spline) continue;
+        if (reference.kind == REFERENCE_TRACK || !goes_with(document, rig, reference.owner)) return false;
+        moves = true;
     }
-}
-
-static void removal_free(struct removal *removal)
-{
-    free(removal->mine);
-    free(removal->others);
+    return moves;
 }
 
 static void remove_rig(void *of, int answer)
 {
     struct core *core = of;
-    const int rig = core->subject.rig;
+    int rig = core->subject.rig;
     const bool with_splines = answer == 0;
     struct document *document = core->document;
     struct error *error = &core->step.error;
-    struct removal removal;
     bool done = true;
     if (rig < 0 || rig >= document->rig_count) return;
     if (!core_step(core, with_splines ? "Remove with splines" : "Remove", 0)) return;
-    removal_survey(&removal, document, rig);
+    bool *goes = need_zeroed((size_t)document->spline_count + 1, sizeof *goes);
+    for (int s = 0; s < document->spline_count; s++) goes[s] = with_splines && moves_alone(document, s, rig);
 
     // Splines that follow a joint of a removed rig keep their value at the playhead.
     for (int s = 0; s < document->spline_count && done; s++) {
         bool follows = false;
         for (int r = 0; r < document->rig_count; r++)
-            follows |= removal_has(&removal, r) && document_follows(document, s, r);
+            follows |= goes_with(document, rig, r) && document_follows(document, s, r);
         if (!follows) continue;
         const double present = spline_list_present(core, s, PARAMETER_EQUILIBRIUM);
         done = core_set_parameter(core, s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
@@ -179,15 +169,15 @@ static void remove_rig(void *of, int answer)
 
     // Its chains go first.
     for (int r = document->rig_count - 1; r >= 0 && done; r--) {
-        if (r == removal.rig || !removal_has(&removal, r)) continue;
+        if (r == rig || !goes_with(document, rig, r)) continue;
         done = edit_rig_remove(document, r, error);
-        if (r < removal.rig) removal.rig--;
+        rig -= r < rig;
     }
-    done = done && edit_rig_remove(document, removal.rig, error);
-    for (int s = document->spline_count - 1; s >= 0 && done && with_splines; s--) {
-        if (removal.mine[s] && !removal.others[s]) done = edit_spline_remove(document, s, error);
+    done = done && edit_rig_remove(document, rig, error);
+    for (int s = document->spline_count - 1; s >= 0 && done; s--) {
+        if (goes[s]) done = edit_spline_remove(document, s, error);
     }
-    removal_free(&removal);
+    free(goes);
 }
 
 void rigs_ask_remove(struct core *core, int rig)
@@ -201,19 +191,16 @@ void rigs_ask_remove(struct core *core, int rig)
     }
 
     // The names of splines that move only this rig.
-    struct removal removal;
     char names[160] = "";
     size_t used = 0;
     int count = 0;
-    removal_survey(&removal, document, rig);
     for (int s = 0; s < document->spline_count; s++) {
-        if (!removal.mine[s] || removal.others[s]) continue;
+        if (!moves_alone(document, s, rig)) continue;
         const int wrote = snprintf(names + used, sizeof names - used, "%s%.*s", count > 0 ? ", " : "",
                                    name_fit(document->splines[s]->name, 40), document->splines[s]->name);
         used = used + (size_t)wrote < sizeof names ? used + (size_t)wrote : sizeof names - 1;
         count++;
     }
-    removal_free(&removal);
     core->subject.rig = rig;
     if (count == 0) {
         remove_rig(core, 1);
@@ -309,11 +296,6 @@ int bones_below(const struct imported *character, int top, int *nodes, int most)
         if (above == top) nodes[count++] = node;
     }
     return count;
-}
-
-void bones_pick(struct core *core, enum bone_use use, int which)
-{
-    core->focus.pick = (struct bone_pick){use, which};
 }
 
 void bones_clicked(struct core *core, int model, int node)

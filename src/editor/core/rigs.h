@@ -47,8 +47,6 @@ void bones_follow(struct core *core, int spline, int model, int node);
 /// Moves a chain's first or last bone, in one step. A first bone beside the old end makes the chain go on to its own tip. Splines that
 /// follow the last bone follow the new one.
 void bones_set_end(struct core *core, int chain, bool first, int node);
-/// Uses the next click on a bone for `use`.
-void bones_pick(struct core *core, enum bone_use use, int which);
 
 /// Makes the selected bone and those down to the tip a chain. With `follow` the chain swings after its motion in the clip. Its first spline
 /// becomes active.

@@ -1,12 +1,10 @@
 /// Edits of splines: their list, timing and parameters, and the frequency that explains their knots.
 #include "editor/core/splines.h"
 #include "base/names.h"
-#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
 #include "editor/core/view.h"
 #include "maths/maths.h"
-#include "scene/warnings.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -222,11 +220,6 @@ void spline_list_fps(struct core *core, double fps)
         fps > before ? "faster" : "slower");
 }
 
-static void set_range(struct core *core, int first, int last, enum range_fit fit)
-{
-    if (core_step(core, "Set range", 0)) edit_range(core->document, first, last, fit, &core->step.error);
-}
-
 static int count_outside(const struct document *document, int first, int last)
 {
     struct document moved = *document;
@@ -246,8 +239,11 @@ static int count_outside(const struct document *document, int first, int last)
 
 static void answer_range(void *of, int answer)
 {
+    static const enum range_fit fits[] = {RANGE_MOVE, RANGE_TRIM, RANGE_REFUSE};
     struct core *core = of;
-    set_range(core, core->subject.first, core->subject.last, answer == 0 ? RANGE_MOVE : RANGE_TRIM);
+    const struct subject *subject = &core->subject;
+    if (core_step(core, "Set range", 0))
+        edit_range(core->document, subject->first, subject->last, fits[answer], &core->step.error);
 }
 
 void spline_list_range(struct core *core, int first, int last)
@@ -257,13 +253,13 @@ void spline_list_range(struct core *core, int first, int last)
     const bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
                           (long long)last - first <= document_longest(core->document);
     const int count = possible ? count_outside(core->document, first, last) : 0;
+    core->subject.first = first;
+    core->subject.last = last;
     if (count == 0) {
-        set_range(core, first, last, RANGE_REFUSE);
+        answer_range(core, 2);
         return;
     }
     struct question *question = core_ask(core, answers, 3, answer_range);
-    core->subject.first = first;
-    core->subject.last = last;
     snprintf(question->title, sizeof question->title, "%d knot%s would fall outside frames %d to %d", count,
              count == 1 ? "" : "s", first, last);
     snprintf(question->note, sizeof question->note,

@@ -115,20 +115,14 @@ bool playback_is_part(const struct core *core)
 
 void playback_choose(struct core *core, double first, double last)
 {
-    double *range = core->view.playback.range;
+    double *range = core->view.playback.range, shown[2];
     range[0] = first;
     range[1] = last;
-    if (first < last && playback_is_part(core)) return;
-    range[0] = -INFINITY;
-    range[1] = INFINITY;
-}
-
-void playback_say_range(struct core *core)
-{
-    double range[2];
-    playback_range(core, range);
-    bool part = playback_is_part(core);
-    core_message(core, false, part ? "Playing frames %.0f to %.0f." : "Playing the whole scene.", range[0], range[1]);
+    const bool part = first < last && playback_is_part(core);
+    if (!part) range[0] = -INFINITY;
+    if (!part) range[1] = INFINITY;
+    playback_range(core, shown);
+    core_message(core, false, part ? "Playing frames %.0f to %.0f." : "Playing the whole scene.", shown[0], shown[1]);
 }
 
 void playback_mark(struct core *core, int end)
@@ -139,7 +133,6 @@ void playback_mark(struct core *core, int end)
     range[end] = frame;
     if (range[0] >= range[1]) range[1 - end] = end ? document->first_frame : document->last_frame;
     playback_choose(core, range[0], range[1]);
-    playback_say_range(core);
 }
 
 static const double REFRESH = 60; ///< frames per second a display shows at least
@@ -260,10 +253,8 @@ void core_set_look(struct core *core, enum look look)
 
 void core_turn_look(struct core *core, int unused)
 {
-    static const enum look next[] = {
-        [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
     (void)unused;
-    core_set_look(core, next[core->view.look]);
+    core_set_look(core, (core->view.look + 1) % (LOOK_CUBIC + 1));
 }
 
 // --- the scene as it was kept (Shift+K), to compare with (hold K)

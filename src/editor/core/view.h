@@ -36,10 +36,8 @@ void playback_change_speed(struct core *core, int direction);
 void playback_range(const struct core *core, double range[2]);
 /// Whether less than the whole scene is played.
 bool playback_is_part(const struct core *core);
-/// Sets the played range; an empty or complete one means the whole scene.
+/// Sets the played range and shows it in a message; an empty or complete one means the whole scene.
 void playback_choose(struct core *core, double first, double last);
-/// Shows the played range in a message.
-void playback_say_range(struct core *core);
 /// Sets the range's start (0) or end (1) to the playhead.
 void playback_mark(struct core *core, int end);
 

@@ -290,12 +290,8 @@ struct rect ruler_corner(const struct core *core)
 static void end_range(void *room, struct core *core, bool keep)
 {
     const double *before = ((const struct curves *)room)->range_before;
-    if (!keep) {
-        playback_choose(core, before[0], before[1]);
-    } else if (!core->input.drag.moved) {
-        playback_choose(core, -INFINITY, INFINITY);
-        playback_say_range(core);
-    }
+    if (!keep) memcpy(core->view.playback.range, before, sizeof core->view.playback.range);
+    if (keep && !core->input.drag.moved) playback_choose(core, -INFINITY, INFINITY);
 }
 
 static void tag_text(const struct core *core, char text[32])
@@ -408,7 +404,6 @@ static void choose_range(void *room, struct core *core)
     const double to = round(curves_frame(core, core->input.drag.x));
     (void)room;
     playback_choose(core, fmin(from, to), fmax(from, to));
-    playback_say_range(core);
 }
 
 static void scrub(void *room, struct core *core)

@@ -334,13 +334,13 @@ static const struct param *followed(const struct inspector *in)
 void inspector_bone_field(struct inspector *in, const struct dropdown *list, struct rect r, int which,
                           const char *text, int of)
 {
-    const struct bone_pick *pick = &in->core->focus.pick;
+    struct bone_pick *pick = &in->core->focus.pick;
     const struct row button = {ICON(list->pick, UI_ICON_PICK), .hint = "Pick it on the stage",
                                .lit = pick->use == list->use && pick->which == of};
     const struct rect icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     r.w -= INSPECTOR_ICON + 4;
     inspector_dropdown(in, list, r, which, text, 0);
-    if (inspector_icon(in, icon, &button)) bones_pick(in->core, button.lit ? BONE_SELECTED : list->use, of);
+    if (inspector_icon(in, icon, &button)) *pick = (struct bone_pick){button.lit ? BONE_SELECTED : list->use, of};
 }
 
 int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen)
