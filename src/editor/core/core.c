@@ -585,7 +585,7 @@ enum room originals_room(const struct core *core, knot_rule *rule, const void *h
     for (int i = 0, before = 0; i < originals->count && room != ROOM_OUTSIDE; i++) {
         const struct original *original = &originals->list[i];
         const struct spline *spline = document->splines[original->spline];
-        const double frame = rule(how, original).frame;
+        const double frame = rule(core, how, original).frame;
         const int sample = document_sample(document, frame);
         const bool meets = i > 0 && originals->list[i - 1].spline == original->spline && sample == before;
         const bool outside = sample < 0 || sample > document_last_knot_sample(document, spline);
@@ -607,7 +607,8 @@ bool originals_put(struct core *core, knot_rule *rule, const void *how, char why
     const struct original *list = originals->list;
     int pair = 1; // of a spline
     while (pair < originals->count && list[pair].spline != list[pair - 1].spline) pair++;
-    const bool reversed = pair < originals->count && rule(how, &list[pair]).frame < rule(how, &list[pair - 1]).frame;
+    const bool reversed =
+        pair < originals->count && rule(core, how, &list[pair]).frame < rule(core, how, &list[pair - 1]).frame;
 
     // To avoid collisions, knots moving right go first, the last one first. If the order is reversed, all are removed before.
     bool done = true;
@@ -615,7 +616,7 @@ bool originals_put(struct core *core, knot_rule *rule, const void *how, char why
         const bool first = i < originals->count;
         const int at = first ? originals->count - 1 - i : i - originals->count;
         const struct original *original = &list[at];
-        struct knot knot = rule(how, original);
+        struct knot knot = rule(core, how, original);
         if (reversed && first) {
             done = edit_knot_remove(core->document, original->spline, knot.id, &core->step.error);
         } else if (reversed || first == (knot.frame > original->knot.frame)) {

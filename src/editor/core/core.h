@@ -109,7 +109,7 @@ void originals_add(struct originals *originals, int spline, const struct knot *k
 void core_collect(struct core *core, bool later);
 
 /// Computes an original's new knot.
-typedef struct knot knot_rule(const void *how, const struct original *original);
+typedef struct knot knot_rule(const struct core *core, const void *how, const struct original *original);
 
 enum room { ROOM_FREE, ROOM_OCCUPIED, ROOM_OUTSIDE };
 

@@ -319,10 +319,10 @@ bool core_copy_knots(struct core *core, bool cut)
 }
 
 /// The knot upside down: its value, slope and phase, about zero.
-static struct knot mirrored(const void *how, const struct original *original)
+static struct knot mirrored(const struct core *core, const void *how, const struct original *original)
 {
     struct knot turned = original->knot;
-    (void)how;
+    (void)core, (void)how;
     turned.value *= -1;
     turned.slope *= -1;
     turned.phase *= -1;
@@ -384,7 +384,7 @@ void core_paste_knots(struct core *core, const char *text)
         const char *name = list.splines ? list.splines[k] : NULL;
         const int named = name ? document_find_spline(document, name) : -1;
         const struct original pasted = {.knot = list.knots[k]};
-        const struct knot knot = paste == PASTE_MIRRORED ? mirrored(NULL, &pasted) : pasted.knot;
+        const struct knot knot = paste == PASTE_MIRRORED ? mirrored(core, NULL, &pasted) : pasted.knot;
         good = insert_copy(core, named >= 0 ? named : core->focus.active, &knot, shift);
     }
     if (good) select_from(core, first_id);

@@ -316,12 +316,6 @@ static void widen(double *low, double *high, const double part[2], double widest
     *high += pan;
 }
 
-/// Whether a drag measures in the plot, which then stays.
-static bool is_measured(const struct curves *curves, const struct core *core)
-{
-    return core->input.drag.owner && core->input.drag.room == curves;
-}
-
 /// Whether playback passes from the scene's end to its start.
 static bool seam_is_played(const struct core *core)
 {
@@ -353,7 +347,8 @@ void follow_edits(struct curves *curves, struct core *core)
         include_seen(curves, core, at.spline, first, last, &part);
     }
     for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
-    struct plotted goal = following->moves && !is_measured(curves, core) ? following->goal : core->view.plot;
+    const bool is_measured = core->input.drag.room == curves; // by a drag, and stays
+    struct plotted goal = following->moves && !is_measured ? following->goal : core->view.plot;
     const float x = core->input.pointer_x, y = core->input.pointer_y;
     const bool points = rect_contains(core->view.layout.plot, x, y);
     const double frame = points ? curves_frame(core, x) : NAN, value = points ? curves_value(core, y) : NAN;
@@ -377,7 +372,7 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
 {
     keep_ghost(curves, core);
     struct following *following = &curves->following;
-    if (!following->moves || is_measured(curves, core)) return;
+    if (!following->moves || core->input.drag.room == curves) return;
     const double share = 1 - maths_exp(-RATE * fmax(dt, 0));
     const struct plotted *view = &core->view.plot, *goal = &following->goal;
     const double left[4] = {goal->frame0 - view->frame0, goal->frame1 - view->frame1, goal->value0 - view->value0,
@@ -394,11 +389,7 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
 
 // The mouse.
 
-struct curves *curves_create(void)
-{
-    struct curves *curves = need_zeroed(1, sizeof *curves);
-    return curves;
-}
+struct curves *curves_create(void) { return need_zeroed(1, sizeof(struct curves)); }
 
 void curves_destroy(struct curves *curves)
 {
@@ -613,29 +604,28 @@ static void pan_view(void *room, struct core *core)
 
 static void move_limit(void *room, struct core *core)
 {
-    const struct curves *curves = room;
-    const struct limit_drag *drag = &curves->limit_drag;
+    const int handle = ((const struct curves *)room)->knot_drag.handle;
     const struct spline *spline = core_active_spline(core);
-    double by = -core->input.drag.moved_y / curves_pixels_per_value(core);
-    double value = core_round(drag->value + by, 0.01 / curves_pixels_per_value(core));
-    const double other = spline->parameter[limit_of(!drag->handle)].value;
+    const double by = -core->input.drag.moved_y / curves_pixels_per_value(core);
+    const double before = spline->parameter[limit_of(handle)].value,
+                 other = spline->parameter[limit_of(!handle)].value;
+    double value = core_round(before + by, 0.01 / curves_pixels_per_value(core));
     for (int k = 0; k < spline->knot_count; k++) {
         const double knot = spline->knots[k].value;
         if (spline->knots[k].still) continue;
-        value = drag->handle ? fmax(value, knot) : fmin(value, knot);
+        value = handle ? fmax(value, knot) : fmin(value, knot);
     }
-    if (drag->handle ? value <= other : value >= other) return; // the two limits must not cross, knots or not
-    core_set_parameter(core, core->focus.active, limit_of(drag->handle), value);
+    if (handle ? value <= other : value >= other) return; // the two limits must not cross, knots or not
+    core_set_parameter(core, core->focus.active, limit_of(handle), value);
 }
 
 static void press_limit(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = move_limit};
     struct curves *curves = room;
-    const enum parameter limit = limit_of(hover->handle);
-    drag_begin(core, &owner, curves, parameter_rows[limit].undo, event);
+    drag_begin(core, &owner, curves, parameter_rows[limit_of(hover->handle)].undo, event);
     core->input.hover = *hover;
-    curves->limit_drag = (struct limit_drag){hover->handle, core_active_spline(core)->parameter[limit].value};
+    curves->knot_drag = (struct knot_drag){.handle = hover->handle};
 }
 
 const struct thing thing_limit = {

@@ -27,17 +27,16 @@ static void collect_knots(const struct curves *curves, struct core *core)
 /// Moves knots in time; selected ones also in value, measured in values of the active spline.
 struct moving {
     const struct curves *curves;
-    const struct core *core;
     double frames, up, resolution;
 };
 
-static struct knot moved_knot(const void *how, const struct original *original)
+static struct knot moved_knot(const struct core *core, const void *how, const struct original *original)
 {
     const struct moving *moving = how;
-    const double scale = normal_map(moving->curves, moving->core, original->spline).scale;
+    const double scale = normal_map(moving->curves, core, original->spline).scale;
     struct knot knot = original->knot;
     knot.frame += moving->frames;
-    if (moving->up != 0 && !knot.still && selection_has(&moving->core->focus.selection, knot.id))
+    if (moving->up != 0 && !knot.still && selection_has(&core->focus.selection, knot.id))
         knot.value = core_round(knot.value + moving->up / scale, moving->resolution / scale);
     return knot;
 }
@@ -78,8 +77,8 @@ static void apply_knots(void *of, struct core *core)
     if (curves->knot_drag.ripple && frames > most)
         snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
 
-    struct moving moving = {curves, core, fmax(fmin(frames, most), least), drag->lock_x ? 0 : -drag->moved_y / pixels,
-                            0.01 / pixels};
+    const double up = drag->lock_x ? 0 : -drag->moved_y / pixels;
+    struct moving moving = {curves, fmax(fmin(frames, most), least), up, 0.01 / pixels};
     if (originals_room(core, moved_knot, &moving, why) != ROOM_FREE) moving.frames = curves->knot_drag.free_frames;
     curves->knot_drag.free_frames = moving.frames;
     if (!originals_put(core, moved_knot, &moving, why)) drag_restart(core);
@@ -238,7 +237,7 @@ enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
 void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths)
 {
     const double up = 0.01 * hundredths * plot_height(core);
-    struct moving moving = {curves, core, frames, up, 0.01 * fabs(up)};
+    struct moving moving = {curves, frames, up, 0.01 * fabs(up)};
     enum room room = ROOM_FREE;
     char why[STOPPED_SIZE] = "";
     core_collect(core, false);
@@ -363,15 +362,9 @@ static double edge_factor(double reach, double by, int direction)
     return 1 + by / (fabs(reach) < LEAST_SIDE ? direction * LEAST_REACH : reach);
 }
 
-struct scale {
-    const struct curves *curves;
-    const struct core *core;
-};
-
-static struct knot scaled_knot(const void *how, const struct original *original)
+static struct knot scaled_knot(const struct core *core, const void *how, const struct original *original)
 {
-    const struct curves *curves = ((const struct scale *)how)->curves;
-    const struct core *core = ((const struct scale *)how)->core;
+    const struct curves *curves = how;
     const struct scaling *scaling = &curves->scaling;
     const struct factors by = scaling->by;
     const double steeper = by.value / by.time;
@@ -396,7 +389,6 @@ static void scale_knots(void *room, struct core *core)
     struct scaling *scaling = &curves->scaling;
     const struct drag *drag = &core->input.drag;
     const struct originals *originals = &core->step.originals;
-    const struct scale scale = {curves, core};
     const double x = curves_x(core, scaling->frame), y = curves_y(core, scaling->value);
     struct factors by;
     if (scaling->handle >= 0) {
@@ -423,16 +415,16 @@ static void scale_knots(void *room, struct core *core)
 
     // Time stops at its last free factor; values may still change, unless all knots are on the pivot.
     scaling->stopped[0][0] = scaling->stopped[1][0] = 0;
-    if (originals_room(core, scaled_knot, &scale, scaling->stopped[0]) != ROOM_FREE)
+    if (originals_room(core, scaled_knot, curves, scaling->stopped[0]) != ROOM_FREE)
         scaling->by.time = scaling->free_time;
     scaling->free_time = scaling->by.time;
     bool changes = scaling->by.value == 1 || scaling->by.time != 1;
     for (int i = 0; i < originals->count && !changes; i++)
         changes = !originals->list[i].knot.still &&
-                  scaled_knot(&scale, &originals->list[i]).value != originals->list[i].value;
+                  scaled_knot(core, curves, &originals->list[i]).value != originals->list[i].value;
     if (!changes)
         snprintf(scaling->stopped[1], STOPPED_SIZE, "all are on the %s", pivot_name(scaling, scaling->pivot));
-    if (!originals_put(core, scaled_knot, &scale, scaling->stopped[1])) drag_restart(core);
+    if (!originals_put(core, scaled_knot, curves, scaling->stopped[1])) drag_restart(core);
     say_scale(curves, core);
 }
 
@@ -773,25 +765,26 @@ const struct thing thing_row = {
     .place = ON_TIME,
     .press = press_row};
 
-bool sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box)
+/// The height of a spline's row; NAN: it has none.
+static float row_of(const struct curves *curves, const struct core *core, int spline)
 {
     for (int row = 0; row < curves->sheet.rows; row++) {
-        const float y = row_y(core, row), half = ROW / 2.0f;
-        if (curves->sheet.spline[row] == spline) return y + half > box.y && y - half < box.y + box.h;
+        if (curves->sheet.spline[row] == spline) return row_y(core, row);
     }
-    return false;
+    return NAN;
+}
+
+bool sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box)
+{
+    const float y = row_of(curves, core, spline), half = ROW / 2.0f;
+    return y + half > box.y && y - half < box.y + box.h;
 }
 
 static bool find_mark(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const struct curves *curves = room;
-    for (int row = 0; row < curves->sheet.rows; row++) {
-        if (curves->sheet.spline[row] != target->spline) continue;
-        xy[0] = curves_knot_x(core, target->knot);
-        xy[1] = row_y(core, row);
-        return rect_contains(core->view.layout.sheet, xy[0], xy[1]);
-    }
-    return false;
+    xy[0] = curves_knot_x(core, target->knot);
+    xy[1] = row_of(room, core, target->spline);
+    return rect_contains(core->view.layout.sheet, xy[0], xy[1]);
 }
 
 /// mark(sway,2): a knot on the dope sheet.

@@ -48,26 +48,24 @@ static bool is_band(const struct curve_cache *cache, const polyline line)
 /// A band's point covers the columns on both sides. Otherwise a swing two columns long would vanish.
 static double widened(const struct curve_cache *cache) { return 2 * cache->by; }
 
-/// A spline's total as a band: maximum and minimum around each column.
-static void draw_band(const struct curves *curves, const struct core *core, int spline, struct value_map map,
-                      polyline line)
+/// A spline's total; as a band, maximum and minimum around each column.
+static void draw_total(const struct curves *curves, const struct core *core, int spline, bool band, polyline line)
 {
     const struct curve_cache *cache = &curves->cache;
+    const struct value_map map = normal_map(curves, core, spline);
     for (int c = 0; c < cache->count; c++) {
-        const double middle = cache->first + cache->by * c;
-        const double position = outermost(core->evaluation, spline, middle, widened(cache), c % 2);
+        const double middle = band ? cache->first + cache->by * c : cache->position[c];
+        const double by = band ? widened(cache) : cache->by;
+        const double position = outermost(core->evaluation, spline, middle, by, c % 2);
         const wiggly_value v = evaluation_at(core->evaluation, spline, position);
-        line[c][0] = curves_x(core, frame_of(core->document, middle));
+        line[c][0] = curves_x(core, frame_of(core->document, band ? middle : position));
         line[c][1] = curves_y(core, map.scale * (v.y + v.re) + map.offset);
     }
 }
 
 int curves_other(const struct curves *curves, const struct document *document, int other)
 {
-    const int spline = curves->cache.other_spline[other];
-    const bool same =
-        spline < document->spline_count && document->splines[spline]->id == curves->cache.other_id[other];
-    return same ? spline : -1;
+    return document_find_spline_id(document, curves->cache.other_id[other]);
 }
 
 int curves_fan(const struct core *core, double turn[CURVES_FAN][2], double *delay)
@@ -118,7 +116,7 @@ static void draw_active(struct curves *curves, const struct core *core)
     cache->band = is_band(cache, cache->re);
     if (!cache->band) return;
     cache->fan_count = 0; // the copies would fill the same band
-    draw_band(curves, core, core->focus.active, (struct value_map){1, 0}, cache->re);
+    draw_total(curves, core, core->focus.active, true, cache->re);
 
     // Im x as a band, from at most about sixteen samples a column.
     const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = evaluation->samples - 1;
@@ -193,17 +191,10 @@ static void curves_update(struct curves *curves, struct core *core)
     for (int s = 0; s < document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
         if (s == core->focus.active || !spline_list_shows(core, s)) continue;
         polyline *line = &cache->others[cache->other_count];
-        const struct value_map map = normal_map(curves, core, s);
-        cache->other_spline[cache->other_count] = s;
         cache->other_id[cache->other_count] = document->splines[s]->id;
-        for (int c = 0; c < cache->count; c++) {
-            double position = outermost(evaluation, s, cache->position[c], by, c % 2);
-            wiggly_value v = evaluation_at(evaluation, s, position);
-            (*line)[c][0] = curves_x(core, frame_of(document, position));
-            (*line)[c][1] = curves_y(core, map.scale * (v.y + v.re) + map.offset);
-        }
+        draw_total(curves, core, s, false, *line);
         const bool band = cache->other_band[cache->other_count++] = is_band(cache, *line);
-        if (band) draw_band(curves, core, s, map, *line);
+        if (band) draw_total(curves, core, s, true, *line);
     }
 }
 
@@ -259,27 +250,6 @@ static struct grid_step round_step(double least)
 /// Rounds to device pixels, so that hairlines stay sharp at every scale.
 static float sharp(const struct core *core, float at) { return roundf(at * core->view.scale) / core->view.scale; }
 
-/// The panels that share the time axis: dope sheet and plot.
-static struct rect field_of(const struct core *core)
-{
-    const struct rect *sheet = &core->view.layout.sheet, *plot = &core->view.layout.plot;
-    return (struct rect){plot->x, sheet->y, plot->w, sheet->h + plot->h};
-}
-
-static void vertical(struct core *core, double frame, uint32_t color)
-{
-    const struct rect field = field_of(core);
-    float x = sharp(core, curves_x(core, frame));
-    drawlist_rect(&core->list, (struct rect){x, field.y, 1, field.h}, color);
-}
-
-static void horizontal(struct core *core, double value, uint32_t color)
-{
-    const struct rect *plot = &core->view.layout.plot;
-    float y = sharp(core, curves_y(core, value));
-    drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1}, color);
-}
-
 struct rect ruler_corner(const struct core *core)
 {
     const struct layout *layout = &core->view.layout;
@@ -294,21 +264,15 @@ static void end_range(void *room, struct core *core, bool keep)
     if (keep && !core->input.drag.moved) playback_choose(core, -INFINITY, INFINITY);
 }
 
-static void tag_text(const struct core *core, char text[32])
-{
-    double frame = round(core_frame(core)) + 0.0; /* the one that I would insert at */
-    snprintf(text, 32, core->view.on[SWITCH_SECONDS] ? "%.2f" : "%.0f",
-             core->view.on[SWITCH_SECONDS] ? frame / core->document->fps : frame);
-}
-
-/// The rectangle of the playhead's frame number on the ruler; empty if the playhead is not visible.
-static struct rect playhead_tag(const struct core *core)
+/// The rectangle of the playhead's frame number on the ruler, and its text; empty if the playhead is not visible.
+static struct rect playhead_tag(const struct core *core, char text[32])
 {
     const struct rect *ruler = &core->view.layout.ruler;
     float x = curves_x(core, core_frame(core));
     if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
-    char text[32];
-    tag_text(core, text);
+    double frame = round(core_frame(core)) + 0.0; /* the one that I would insert at */
+    snprintf(text, 32, core->view.on[SWITCH_SECONDS] ? "%.2f" : "%.0f",
+             core->view.on[SWITCH_SECONDS] ? frame / core->document->fps : frame);
     float width = roundf(font_width(FONT_NUMBER, THEME_TEXT_SMALL, text)) + 10;
     float left = fminf(fmaxf(roundf(x - width / 2), ruler->x), ruler->x + ruler->w - width);
     return (struct rect){left, ruler->y + 3, width, 16};
@@ -317,8 +281,8 @@ static struct rect playhead_tag(const struct core *core)
 static void grid_show(struct core *core)
 {
     const struct layout *layout = &core->view.layout;
-    const struct rect field = field_of(core), *plot = &layout->plot, *ruler = &layout->ruler,
-                      *axis = &layout->value_axis;
+    const struct rect *plot = &layout->plot, *ruler = &layout->ruler, *axis = &layout->value_axis;
+    const struct rect field = {plot->x, layout->sheet.y, plot->w, layout->sheet.h + plot->h}; // with the dope sheet
     const struct plotted *view = &core->view.plot;
     char text[32];
     const double unit = core->view.on[SWITCH_SECONDS] ? core->document->fps : 1; // frames per unit of the ruler
@@ -334,20 +298,22 @@ static void grid_show(struct core *core)
     if (last < right)
         drawlist_rect(&core->list, (struct rect){last, field.y, right - last, field.h}, theme()->outside);
 
-    double minor = times.size / times.parts * unit;
-    for (double i = ceil(view->frame0 / minor); i * minor <= view->frame1; i++) {
-        if (fmod(i, times.parts) != 0) vertical(core, i * minor, theme()->grid_minor);
-    }
-    minor = values.size / values.parts;
-    for (double i = ceil(view->value0 / minor); i * minor <= view->value1; i++) {
-        if (fmod(i, values.parts) != 0) horizontal(core, i * minor, theme()->grid_minor);
-    }
-    double major = times.size * unit;
-    for (double i = ceil(view->frame0 / major); i * major <= view->frame1; i++) {
-        vertical(core, i * major, theme()->grid_major);
-    }
-    for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
-        horizontal(core, i * values.size, i == 0 ? theme()->zero : theme()->grid_major);
+    // Minor lines, then major ones over them.
+    for (int major = 0; major < 2; major++) {
+        const uint32_t color = major ? theme()->grid_major : theme()->grid_minor;
+        const double frames = times.size / (major ? 1 : times.parts) * unit;
+        for (double i = ceil(view->frame0 / frames); i * frames <= view->frame1; i++) {
+            const float x = sharp(core, curves_x(core, i * frames));
+            if (major || fmod(i, times.parts) != 0)
+                drawlist_rect(&core->list, (struct rect){x, field.y, 1, field.h}, color);
+        }
+        const double up = values.size / (major ? 1 : values.parts);
+        for (double i = ceil(view->value0 / up); i * up <= view->value1; i++) {
+            const float y = sharp(core, curves_y(core, i * up));
+            if (major || fmod(i, values.parts) != 0)
+                drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1},
+                              major && i == 0 ? theme()->zero : color);
+        }
     }
     drawlist_set_clip(&core->list, clip);
     drawlist_rect(&core->list, (struct rect){ruler->x, layout->sheet.y - 1, ruler->w, 1}, theme()->border);
@@ -367,7 +333,7 @@ static void grid_show(struct core *core)
 
     // Frames or seconds, centred over the grid lines, but for the one under the playhead's tag.
     clip = drawlist_push_clip(&core->list, *ruler);
-    const struct rect tag = playhead_tag(core);
+    const struct rect tag = playhead_tag(core, text);
     for (double i = ceil(view->frame0 / unit / times.size); i * times.size <= view->frame1 / unit; i++) {
         snprintf(text, sizeof text, "%.*f", times.decimals, i * times.size + 0.0);
         float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
@@ -477,14 +443,13 @@ struct hover ruler_pins_hover(const struct core *core, float x, float y)
 
 static void move_pin_time(void *room, struct core *core)
 {
-    struct curves *curves = room;
-    struct pin_time_drag *drag = &curves->pin_drag;
+    struct knot_drag *drag = &((struct curves *)room)->knot_drag;
     const struct document *document = core->document;
     int rig;
     const struct pin *pin = pins_selected(core, &rig);
-    if (!pin || pin->id != drag->id) return;
+    if (!pin) return;
     struct pin moved = *pin;
-    double frame = drag->frame + core->input.drag.moved_x / curves_pixels_per_frame(core);
+    double frame = pin->frame + core->input.drag.moved_x / curves_pixels_per_frame(core);
     if (core->input.drag.snap) frame = round(frame);
     int sample = document_sample(document, frame), last = pins_last_sample(document, document->rigs[rig]);
     sample = sample < 0 ? 0 : sample > last ? last : sample;
@@ -507,8 +472,7 @@ static void press_pin_time(void *room, struct core *core, const struct hover *ho
     const int at = pins_find_id(rig, hover->pin);
     if (at < 0) return;
     drag_begin(core, &owner, curves, "Move pin in time", event);
-    curves->pin_drag = (struct pin_time_drag){.id = hover->pin, .frame = rig->pins[at].frame};
-    curves->pin_drag.free_frame = curves->pin_drag.frame;
+    curves->knot_drag = (struct knot_drag){.free_frame = rig->pins[at].frame};
     pins_visit(core, &rig->pins[at]);
 }
 
@@ -597,10 +561,10 @@ static void show_lines(struct curves *curves, struct core *core)
         }
     }
     for (int i = 0; i < cache->other_count && cache->count > 1; i++) {
-        const bool hot =
-            core->input.hover.thing == &thing_curve && core->input.hover.spline == cache->other_spline[i];
+        const int other = curves_other(curves, document, i);
+        const bool hot = core->input.hover.thing == &thing_curve && core->input.hover.spline == other;
         show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
-                  theme_fade(color_of(document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
+                  theme_fade(color_of(document, other), hot ? 1 : THEME_OTHERS));
     }
     if (spline && cache->count > 1) {
         if (ghost->of && (core->input.drag.owner || core->cleaning.of) && ghost->count > 1) {
@@ -622,7 +586,7 @@ static void show_lines(struct curves *curves, struct core *core)
 
     // The shown curves as they were before, the active one last.
     for (int i = take_is_shown(core) ? cache->other_count - 1 : -2; i >= -1; i--) {
-        const int shown = i < 0 ? core->focus.active : cache->other_spline[i];
+        const int shown = i < 0 ? core->focus.active : curves_other(curves, document, i);
         if (!spline_list_shows(core, shown)) continue;
         color = i < 0 ? theme()->playhead : spline_list_color(document, shown);
         const struct take *take = &core->take;
@@ -805,9 +769,8 @@ void curves_show(struct curves *curves, struct core *core)
                         theme_fade(spline_list_color(document, core->focus.active), hot ? 1 : 0.6f));
     }
     show_lines(curves, core);
-    for (int i = 0; i < curves->cache.other_count; i++) {
-        knots_show(curves, core, curves->cache.other_spline[i], NAN);
-    }
+    for (int i = 0; i < curves->cache.other_count; i++)
+        knots_show(curves, core, curves_other(curves, document, i), NAN);
     show_active_knots(curves, core);
     if (!core->input.drag.owner) scale_box_show(curves, core, true); // it would change with every step of a drag
     warnings_update(curves, core);
@@ -844,10 +807,9 @@ void curves_show(struct curves *curves, struct core *core)
                   FONT_LABEL_BOLD, THEME_TEXT_SMALL, theme()->text, text);
 
     // The playhead comes last, so that playing redraws nothing before it.
-    const struct rect tag = playhead_tag(core);
+    const struct rect tag = playhead_tag(core, frame);
     if (tag.w > 0) {
         const float x = curves_x(core, core_frame(core));
-        tag_text(core, frame);
         drawlist_rect(&core->list, (struct rect){x - 0.5f, sheet->y, 1, sheet->h + plot->h}, theme()->playhead);
         drawlist_rounded(&core->list, tag, 3, theme()->playhead);
         drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, frame);

@@ -36,25 +36,15 @@ struct following {
 
 enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 
-/// A drag of knots, slopes or a box.
+/// A drag of knots, slopes, a limit, a pin's mark or a box.
 struct knot_drag {
     double free_frames; ///< last shift that hit no knot
-    int handle;         ///< end of a slope handle, as in curves_handle()
+    double free_frame;  ///< last frame without another pin of that point
+    int handle;         ///< end of a slope handle, as in curves_handle(); of a limit: 1 for the high one
     bool collapse;      ///< a click on a selected knot selects it alone
     enum box_mode box;
     bool in_sheet; ///< the box is on the dope sheet
     bool ripple;   ///< later knots move too
-};
-
-struct limit_drag {
-    int handle;   ///< 0: the low one, 1: the high one
-    double value; ///< before
-};
-
-struct pin_time_drag {
-    unsigned id;
-    double frame;      ///< before
-    double free_frame; ///< last frame without another pin of that point
 };
 
 /// The pivot: the middle of the selection, the playhead's equilibrium, the equilibrium at each knot, or the box's opposite side.
@@ -117,9 +107,8 @@ struct curve_cache {
     /// A column covers whole swings: re and im, or the other curve, is drawn as a band.
     bool band, other_band[CURVES_MAX_OTHERS];
     int fan_count, other_count;
-    int other_spline[CURVES_MAX_OTHERS];
-    unsigned other_id[CURVES_MAX_OTHERS];
-    double range[CURVES_MAX_RANGES][2]; ///< lowest and highest value of each normalised spline
+    unsigned other_id[CURVES_MAX_OTHERS]; ///< the splines
+    double range[CURVES_MAX_RANGES][2];   ///< lowest and highest value of each normalised spline
     int range_count;
 };
 
@@ -140,8 +129,6 @@ struct curves {
     struct selection before_box; ///< the selection before a box was drawn
     struct knot_drag knot_drag;
     struct scaling scaling;
-    struct limit_drag limit_drag;
-    struct pin_time_drag pin_drag;
     double range_before[2]; ///< the played range before a drag of it
     struct ghost ghost;
     struct curve_cache cache;
@@ -173,7 +160,7 @@ struct value_map normal_map(const struct curves *curves, const struct core *core
 /// A knot's height in logical pixels, normalised if that is on.
 float curves_knot_y(const struct curves *curves, const struct core *core, int spline, const struct knot *knot);
 
-/// The spline of another curve's vertices, or -1 if an edit has moved it in the list since.
+/// The spline of another curve's vertices, or -1 if it is gone.
 int curves_other(const struct curves *curves, const struct document *document, int other);
 /// Copies the active curve before a drag's first edit, to show it behind.
 void keep_ghost(struct curves *curves, const struct core *core);
