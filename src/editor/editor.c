@@ -642,12 +642,11 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
 {
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
-    enum ui_over over;
-    if (dialogs_over(editor->dialogs, &over)) return of_widget[over];
+    const enum ui_over over = inspector_ui(editor->inspector)->over;
+    if (dialogs_cover(editor->dialogs)) return of_widget[dialogs_over(editor->dialogs)];
     if (editor->core.input.drag.owner) return editor->core.input.drag.owner->cursor;
     enum divider divider = core_divider_at(&editor->core, editor->core.input.pointer_x, editor->core.input.pointer_y);
     if (divider != DIVIDER_NONE) return divider_drags[divider].cursor;
-    over = inspector_ui(editor->inspector)->over;
     if (over != UI_OVER_NOTHING) return of_widget[over];
     if (editor->status.hint) return CURSOR_HAND;
     return editor->core.input.hover.thing ? editor->core.input.hover.thing->cursor : CURSOR_ARROW;

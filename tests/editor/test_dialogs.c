@@ -78,7 +78,7 @@ SESSION_TEST(test_open_completes_paths, open_files(s, "x.json"))
 {
     const struct dialog *dialog = dialog_of(s->editor);
     hands(s, "key Ctrl+O; type fi; is matches 4");
-    assert_string_equal(dialog->names[dialog->match[0]], "figures/");
+    assert_string_equal(dialog->match[0].name, "figures/");
     hands(s, "key Tab; is typed figure");
     assert_int_equal(listings, 1);
     hands(s, "key Down Enter; is typed figures/; is matches 2; asks nothing;" // into the folder

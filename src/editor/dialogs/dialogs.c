@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 
@@ -19,24 +18,13 @@ enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 static int question_key(struct dialog *dialog, int key)
 {
     const struct question *question = &dialog->question;
-    int count = question->count;
-    switch (key) {
-    case KEY_ESCAPE:
-        return count - 1;
-    case KEY_SPACE:
-    case KEY_ENTER:
-        return dialog->choice;
-    case KEY_LEFT:
-    case KEY_UP:
-        dialog->choice = (dialog->choice + count - 1) % count;
+    const int count = question->count;
+    const bool back = key == KEY_LEFT || key == KEY_UP, on = key == KEY_RIGHT || key == KEY_DOWN || key == KEY_TAB;
+    if (key == KEY_ESCAPE) return count - 1;
+    if (key == KEY_SPACE || key == KEY_ENTER) return dialog->choice;
+    if (back || on) {
+        dialog->choice = (dialog->choice + (back ? count - 1 : 1)) % count;
         return QUESTION_OPEN;
-    case KEY_TAB:
-    case KEY_RIGHT:
-    case KEY_DOWN:
-        dialog->choice = (dialog->choice + 1) % count;
-        return QUESTION_OPEN;
-    default:
-        break;
     }
     for (int i = 0; i < count; i++) {
         if (question->answers[i].key == key) return i;
@@ -396,34 +384,16 @@ static bool is_offered(const struct rig *rig, unsigned choices)
     return rig->kind != RIG_CHAIN; // exported with its character
 }
 
-/// The next rig to export; 0 for all after the last, where the format allows that.
-static void next_rig(struct export_wish *wish, const struct document *document, unsigned choices)
+/// The offered rig that follows the one with an id (0: the first); NULL after the last.
+static const struct rig *next_rig(const struct document *document, unsigned choices, unsigned id)
 {
-    int current = -1, first = -1, next = -1;
-    for (int i = 0; i < document->rig_count; i++) {
-        const struct rig *rig = document->rigs[i];
-        if (!is_offered(rig, choices)) continue;
-        if (first < 0) first = i;
-        if (current >= 0 && next < 0) next = i;
-        if (rig->id == wish->rig) current = i;
+    bool follows = id == 0;
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        if (follows && is_offered(rig, choices)) return rig;
+        follows |= rig->id == id;
     }
-    if (next < 0 && (current < 0 || (choices & CHOICE_ONE))) next = first;
-    wish->rig = next >= 0 ? document->rigs[next]->id : 0;
-}
-
-/// The label of the rig that is chosen, or NULL; and how many are offered.
-static const char *chosen_rig(const struct document *document, const struct export_wish *wish, unsigned choices,
-                              int *offered)
-{
-    const char *label = NULL;
-    *offered = 0;
-    for (int i = 0; i < document->rig_count; i++) {
-        if (!is_offered(document->rigs[i], choices)) continue;
-        if (document->rigs[i]->id == wish->rig)
-            label = document->rigs[i]->name ? document->rigs[i]->name : rig_word(document->rigs[i]->kind);
-        (*offered)++;
-    }
-    return label;
+    return NULL;
 }
 
 static void build_toggle(struct ui *ui, struct rect *row, const char *name, const char *label, bool *on)
@@ -479,17 +449,20 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
                      theme()->text_dim);
     }
     if (format->choices & CHOICE_RIG) {
-        int offered = 0;
-        const char *label = chosen_rig(document, wish, format->choices, &offered);
-        if (!label) wish->rig = 0; // the rig belonged to another format or is gone
-        if ((format->choices & CHOICE_ONE) && !label && offered > 1) {
-            next_rig(wish, document, format->choices);
-            label = chosen_rig(document, wish, format->choices, &offered);
-        }
-        if (offered > 1) {
+        const bool needs_one = format->choices & CHOICE_ONE;
+        const struct rig *top = next_rig(document, format->choices, 0), *chosen = top;
+        const bool several = top && next_rig(document, format->choices, top->id);
+        while (chosen && chosen->id != wish->rig) chosen = next_rig(document, format->choices, chosen->id);
+        if (!chosen && needs_one && several) chosen = top;
+        wish->rig = chosen ? chosen->id : 0; // the rig belonged to another format or is gone
+        if (several) {
             const struct rect r = labelled(ui, &rows[narrow ? CHOICE_ROWS + 1 : 1], NUMBER_WIDTH + 48, "rig");
-            if (ui_button(ui, r, "export.rig", label ? label : "all rigs", false))
-                next_rig(wish, document, format->choices);
+            const char *label = !chosen ? "all rigs" : chosen->name ? chosen->name : rig_word(chosen->kind);
+            if (ui_button(ui, r, "export.rig", label, false)) {
+                const struct rig *next = next_rig(document, format->choices, wish->rig);
+                if (!next && needs_one) next = top;
+                wish->rig = next ? next->id : 0; // all after the last, where the format allows that
+            }
         }
     }
 
@@ -514,19 +487,11 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     struct ui *ui = &dialogs->dialog.ui;
     const float top = ui->y;
     char text[160];
-    if (is_running(dialog) && now->total > 0) {
-        snprintf(text, sizeof text, "%ld of %ld. Esc cancels and leaves nothing behind.", now->done, now->total);
-    } else if (is_running(dialog)) {
-        snprintf(text, sizeof text, "Getting ready. Esc cancels and leaves nothing behind.");
-    } else {
-        const int keys = wish->keys > 0 ? wish->keys : document->substeps;
-        const double frames = wish->last - wish->first;
-        double rate = format->film ? 0 : document->fps * keys;
-        const double count = format->film ? export_pictures(format, document, frames, 0, &rate) : frames * keys + 1;
-        snprintf(text, sizeof text, "%.0f %s%s, %g a second. ↑ ↓ choose the format, Tab goes to the choices.", count,
-                 format->film ? "picture" : "key", count == 1 ? "" : "s", rate);
-    }
     if (is_running(dialog)) {
+        snprintf(text, sizeof text,
+                 now->total > 0 ? "%ld of %ld. Esc cancels and leaves nothing behind."
+                                : "Getting ready. Esc cancels and leaves nothing behind.",
+                 now->done, now->total);
         const struct rect bar = ui_row(ui, 8);
         const float part = now->total > 0 ? (float)now->done / (float)now->total : 0;
         if (ui->pass == UI_PASS_DRAW) {
@@ -535,6 +500,13 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
                              theme()->accent);
         }
         ui_space(ui, 4);
+    } else {
+        const int keys = wish->keys > 0 ? wish->keys : document->substeps;
+        const double frames = wish->last - wish->first;
+        double rate = format->film ? 0 : document->fps * keys;
+        const double count = format->film ? export_pictures(format, document, frames, 0, &rate) : frames * keys + 1;
+        snprintf(text, sizeof text, "%.0f %s%s, %g a second. ↑ ↓ choose the format, Tab goes to the choices.", count,
+                 format->film ? "picture" : "key", count == 1 ? "" : "s", rate);
     }
     ui_paragraph(ui,
                  dialog->error[0]   ? dialog->error
@@ -650,7 +622,7 @@ static void dialog_match(struct dialog *dialog)
     const int recent = dialog->kind == DIALOG_OPEN && !folder[0] ? dialog->recent_count : 0;
     for (int i = 0; i < recent; i++) {
         if (ui_filter_fit(&filter, path_name(dialog->recent[i].path)) >= FIT_INSIDE)
-            dialog->match[dialog->match_count++] = DIALOG_MAX_NAMES + i;
+            dialog->match[dialog->match_count++] = (struct dialog_match){.recent = &dialog->recent[i]};
     }
     for (int pass = 0; pass < 2; pass++) { // names that begin with the text, then those that hold it elsewhere
         for (int at = 0; at < dialog->name_count; at++) {
@@ -658,7 +630,8 @@ static void dialog_match(struct dialog *dialog)
             const enum fit fit = ui_filter_fit(&filter, candidate);
             const bool behind = background_suits(candidate) && candidate[strlen(candidate) - 1] != '/';
             if (dialog->kind == DIALOG_ADD ? path_has_end(candidate, ".json") : behind) continue;
-            if (fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0)) dialog->match[dialog->match_count++] = at;
+            if (fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0))
+                dialog->match[dialog->match_count++] = (struct dialog_match){.name = candidate};
         }
     }
 }
@@ -748,22 +721,15 @@ static void set_name(struct dialog *dialog, const char *name, size_t length)
     dialog_match(dialog);
 }
 
-/// The recent file of a match, or NULL.
-static const struct dialog_recent *dialog_recent_of(const struct dialog *dialog, int match)
-{
-    int recent = dialog->match[match] - DIALOG_MAX_NAMES;
-    return recent >= 0 ? &dialog->recent[recent] : NULL;
-}
-
 /// Tab: completes up to where the matching names differ.
 static void dialog_complete(struct dialog *dialog)
 {
     const char *first = NULL;
     size_t common = 0;
     for (int m = 0; m < dialog->match_count; m++) {
-        const char *other = dialog_recent_of(dialog, m) ? "" : dialog->names[dialog->match[m]];
+        const char *other = dialog->match[m].name;
         size_t same = 0;
-        if (!*other || (!dialog->ui.text.all && !begins(dialog, other))) continue;
+        if (!other || (!dialog->ui.text.all && !begins(dialog, other))) continue;
         if (!first) common = strlen(first = other);
         while (same < common && other[same] == first[same]) same++;
         common = same;
@@ -775,7 +741,7 @@ static void dialog_complete(struct dialog *dialog)
 /// Puts a match into the path. true for a file; a folder is listed, a missing file reported.
 static bool dialog_take(struct dialog *dialog, int match)
 {
-    const struct dialog_recent *recent = dialog_recent_of(dialog, match);
+    const struct dialog_recent *recent = dialog->match[match].recent;
     if (recent && recent->missing) {
         snprintf(dialog->error, sizeof dialog->error, "%.300s no longer exists.", recent->path);
         return false;
@@ -785,7 +751,7 @@ static bool dialog_take(struct dialog *dialog, int match)
         dialog_match(dialog);
         return true;
     }
-    const char *name = dialog->names[dialog->match[match]];
+    const char *name = dialog->match[match].name;
     size_t length = strlen(name);
     bool folder = length > 0 && name[length - 1] == '/';
     set_name(dialog, name, length);
@@ -795,28 +761,21 @@ static bool dialog_take(struct dialog *dialog, int match)
 static bool path_key(struct dialogs *dialogs, int key)
 {
     struct dialog *dialog = &dialogs->dialog;
-    switch (key) {
-    case KEY_ESCAPE:
+    if (key == KEY_ESCAPE) {
         dialog_close(dialogs);
-        return true;
-    case KEY_TAB:
+    } else if (key == KEY_TAB) {
         dialog_complete(dialog);
-        return true;
-    case KEY_UP:
-        move_choice(dialog, -1);
-        return true;
-    case KEY_DOWN:
-        move_choice(dialog, 1);
-        return true;
-    case KEY_ENTER:
-        if (dialog->choice < 0 && dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1 &&
-            !dialog_recent_of(dialog, 0) && begins(dialog, dialog->names[dialog->match[0]]))
+    } else if (key == KEY_UP || key == KEY_DOWN) {
+        move_choice(dialog, key == KEY_UP ? -1 : 1);
+    } else if (key == KEY_ENTER) {
+        const char *only = dialog->match_count == 1 ? dialog->match[0].name : NULL;
+        if (dialog->choice < 0 && dialog->kind != DIALOG_SAVE_AS && only && begins(dialog, only))
             dialog->choice = 0; // the only match, if it begins with the text
         if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(dialogs);
-        return true;
-    default:
+    } else {
         return false;
     }
+    return true;
 }
 
 static void build_list(struct dialogs *dialogs)
@@ -838,8 +797,8 @@ static void build_list(struct dialogs *dialogs)
         const int match = first + row;
         if (match < dialog->match_count) {
             char name[32];
-            const struct dialog_recent *recent = dialog_recent_of(dialog, match);
-            const char *text = recent ? "" : dialog->names[dialog->match[match]];
+            const struct dialog_recent *recent = dialog->match[match].recent;
+            const char *text = recent ? "" : dialog->match[match].name;
             snprintf(name, sizeof name, "dialog.match.%d", match);
             if (ui_list_row(ui, r, name, text, 0, match == dialog->choice)) taken = match;
             if (recent) { // its name, with its folder to the right
@@ -864,7 +823,7 @@ static void build_list(struct dialogs *dialogs)
         }
     }
     if (taken >= 0) dialog->error[0] = '\0';
-    bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // one click opens a recent file
+    bool direct = taken >= 0 && dialog->match[taken].recent; // one click opens a recent file
     bool done = taken >= 0 && !confirmed && dialog_take(dialog, taken);
     if (confirmed || (done && direct)) confirm(dialogs);
 }
@@ -887,10 +846,9 @@ static void build_path(struct dialogs *dialogs)
     if (dialog->app->list) build_list(dialogs);
     const char *note = "", *typed = path_name(ui->text.bytes);
     for (int m = 0; saving && m < dialog->match_count; m++) {
-        if (!dialog_recent_of(dialog, m) && strcmp(dialog->names[dialog->match[m]], typed) == 0)
-            note = "This replaces an existing file.";
+        if (strcmp(dialog->match[m].name, typed) == 0) note = "This replaces an existing file.";
     }
-    if (dialog->match_count > 0 && dialog_recent_of(dialog, 0))
+    if (dialog->match_count > 0 && dialog->match[0].recent)
         note = "Recent files come first. Type a path or choose one; Tab completes.";
     if (!note[0] && dialog->app->list) note = "Tab completes, arrow keys choose.";
     ui_space(ui, 4);
@@ -1020,10 +978,9 @@ bool dialogs_are_asking(const struct dialogs *dialogs) { return dialogs->dialog.
 
 bool dialogs_cover(const struct dialogs *dialogs) { return dialogs_are_asking(dialogs) || dialogs->lookup.kind; }
 
-bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over)
+enum ui_over dialogs_over(const struct dialogs *dialogs)
 {
-    *over = dialogs->dialog.kind != DIALOG_NONE ? dialogs->dialog.ui.over : UI_OVER_NOTHING;
-    return dialogs_cover(dialogs);
+    return dialogs_are_asking(dialogs) ? dialogs->dialog.ui.over : UI_OVER_NOTHING;
 }
 
 float dialogs_bottom(const struct dialogs *dialogs)

@@ -45,8 +45,8 @@ void dialogs_menu(struct dialogs *dialogs);
 const struct command *dialogs_take_command(struct dialogs *dialogs);
 /// Whether an overlay is open.
 bool dialogs_cover(const struct dialogs *dialogs);
-/// Whether an overlay is open, and what part of a dialog the pointer is on.
-bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
+/// What part of a dialog the pointer is on.
+enum ui_over dialogs_over(const struct dialogs *dialogs);
 /// Height of the stage's left side that is free of overlays.
 float dialogs_bottom(const struct dialogs *dialogs);
 /// Opens the card for new users.

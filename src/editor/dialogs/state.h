@@ -41,6 +41,12 @@ enum dialog_kind {
 
 enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
 
+/// A file to choose: one of the listed folder, or a recent one.
+struct dialog_match {
+    const char *name; ///< or NULL
+    const struct dialog_recent *recent;
+};
+
 /// The open dialog. Zero: none, and no access to folders.
 struct dialog {
     enum dialog_kind kind;
@@ -58,8 +64,7 @@ struct dialog {
     int name_count; ///< -1: not listed
     struct dialog_recent recent[DIALOG_MAX_RECENT];
     int recent_count;
-    /// Indices of matching names; recent files are DIALOG_MAX_NAMES + n.
-    int match[DIALOG_MAX_NAMES + DIALOG_MAX_RECENT];
+    struct dialog_match match[DIALOG_MAX_NAMES + DIALOG_MAX_RECENT];
     int match_count;
     int choice; ///< highlighted match (-1: none)
 };
