@@ -427,46 +427,34 @@ void editor_leave(struct editor *editor, const struct request *request)
 /// For events that no dialog, drag or inspector used.
 static void pass_on(struct editor *editor, const struct event *event)
 {
+    struct core *core = &editor->core;
     struct request request = {.kind = event->kind == EVENT_CLOSE ? REQUEST_QUIT : REQUEST_OPEN};
-    const enum divider divider = core_divider_at(&editor->core, event->x, event->y);
-    const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
-    switch (event->kind) {
-    case EVENT_KEY:
-    case EVENT_TEXT:
-        keys_event(editor, event);
-        break;
-    case EVENT_BUTTON:
-        if (event->action != ACTION_PRESS) break;
-        if (divider != DIVIDER_NONE && event->button == BUTTON_LEFT) {
-            drag_begin(&editor->core, &divider_drags[divider], NULL, NULL, event);
-        } else if (panel == PANEL_CURVES) {
-            curves_press(editor->curves, &editor->core, event);
-            if (event->button == BUTTON_RIGHT) dialogs_menu(editor->dialogs);
-        } else if (panel == PANEL_STAGE) {
-            stage_press(editor->stage, &editor->core, event);
-        } else {
-            status_event(editor, event);
-        }
-        break;
-    case EVENT_WHEEL:
-        if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);
-        if (panel == PANEL_STATUS) status_event(editor, event);
-        if (panel == PANEL_STAGE) stage_wheel(&editor->core, event);
-        break;
-    case EVENT_PASTE:
-        core_paste_knots(&editor->core, event->text);
-        break;
-    case EVENT_CLOSE:
-        editor_leave(editor, &request);
-        break;
-    case EVENT_DROP:
+    const enum divider divider = core_divider_at(core, event->x, event->y);
+    const enum panel panel = core_panel_at(core, event->x, event->y);
+    if (event->kind == EVENT_KEY || event->kind == EVENT_TEXT) keys_event(editor, event);
+    if (event->kind == EVENT_PASTE) core_paste_knots(core, event->text);
+    if (event->kind == EVENT_DROP) {
         snprintf(request.path, sizeof request.path, "%s", event->path ? event->path : "");
         if (background_suits(request.path)) request.kind = REQUEST_ADD;
-        if (request.kind == REQUEST_ADD) core_request(&editor->core, &request);
-        if (request.kind == REQUEST_OPEN) editor_leave(editor, &request);
-        break;
-    default:
-        break;
+        if (request.kind == REQUEST_ADD) core_request(core, &request);
+    }
+    if (event->kind == EVENT_CLOSE || (event->kind == EVENT_DROP && request.kind == REQUEST_OPEN))
+        editor_leave(editor, &request);
+    if (event->kind == EVENT_WHEEL) {
+        if (panel == PANEL_CURVES) curves_wheel(editor->curves, core, event);
+        if (panel == PANEL_STATUS) status_event(editor, event);
+        if (panel == PANEL_STAGE) stage_wheel(core, event);
+    }
+    if (event->kind != EVENT_BUTTON || event->action != ACTION_PRESS) return;
+    if (divider != DIVIDER_NONE && event->button == BUTTON_LEFT) {
+        drag_begin(core, &divider_drags[divider], NULL, NULL, event);
+    } else if (panel == PANEL_CURVES) {
+        curves_press(editor->curves, core, event);
+        if (event->button == BUTTON_RIGHT) dialogs_menu(editor->dialogs);
+    } else if (panel == PANEL_STAGE) {
+        stage_press(editor->stage, core, event);
+    } else {
+        status_event(editor, event);
     }
 }
 

@@ -97,17 +97,11 @@ void rigs_copy(struct core *core, int rig)
     place_of(core, rig, &width);
     const double place = free_place(core, width);
     copy.pin_count = 0; // pins would drive both
-    switch (copy.kind) {
-    case RIG_TAIL:
-        break;
-    case RIG_MODEL:
-        copy.model.position[0] = place;
-        break;
-    case RIG_CHAIN:
-    case RIG_KINDS:
+    if (copy.kind == RIG_CHAIN) {
         core_message(core, false, "A chain is copied with its character: copy that.");
         return;
     }
+    if (copy.kind == RIG_MODEL) copy.model.position[0] = place;
     if (!core_step(core, "Add one more", 0)) return;
     bool done = copy.kind == RIG_TAIL ? edit_tail_add(document, rig, core->focus.active, &core->step.error)
                                       : edit_rig_add(document, &copy, &core->step.error);

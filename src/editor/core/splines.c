@@ -150,28 +150,6 @@ static void copy_chosen(struct core *core)
     core_turn_to(core, document_find_spline_id(core->document, core->focus.active_id) + 1);
 }
 
-/// Moves the chosen splines by a row, into a folder if they come to lie within.
-static void move_chosen(struct core *core, int direction)
-{
-    const struct document *document = core->document;
-    int at = direction < 0 ? 0 : document->spline_count - 1; // the first of them, or the last
-    while (!core_is_chosen(core, at)) at -= direction;
-    const int next = at + direction, to = direction < 0 ? next : next + 1;
-    const bool within = spline_list_together(document, at, next) || spline_list_together(document, to - 1, to);
-    if (next >= 0 && next < document->spline_count)
-        spline_list_place(core, to, within ? document->splines[next]->folder : NULL);
-}
-
-/// Puts the chosen splines into a folder called like the first of them; or if that is in one, takes them out, behind it.
-static void change_folder(struct core *core)
-{
-    const struct document *document = core->document;
-    int first = 0, to;
-    while (!core_is_chosen(core, first)) first++;
-    for (to = first; spline_list_together(document, first, to);) to++;
-    spline_list_place(core, to, to > first ? NULL : document->splines[first]->name);
-}
-
 void spline_list_change(struct core *core, int change)
 {
     struct document *document = core->document;
@@ -186,8 +164,21 @@ void spline_list_change(struct core *core, int change)
     if (!spline) return;
     if (change == LIST_COPY) copy_chosen(core);
     if (change == LIST_REMOVE) ask_remove(core, spline);
-    if (change == LIST_UP || change == LIST_DOWN) move_chosen(core, change == LIST_UP ? -1 : 1);
-    if (change == LIST_FOLDER) change_folder(core);
+    if (change == LIST_UP || change == LIST_DOWN) { // by a row, into a folder if they come to lie within
+        const int by = change == LIST_UP ? -1 : 1;
+        int at = by < 0 ? 0 : document->spline_count - 1; // the first of them, or the last
+        while (!core_is_chosen(core, at)) at -= by;
+        const int next = at + by, to = by < 0 ? next : next + 1;
+        const bool within = spline_list_together(document, at, next) || spline_list_together(document, to - 1, to);
+        if (next >= 0 && next < document->spline_count)
+            spline_list_place(core, to, within ? document->splines[next]->folder : NULL);
+    }
+    if (change == LIST_FOLDER) { // one called like the first of them; or if that is in one, behind it
+        int first = 0, to;
+        while (!core_is_chosen(core, first)) first++;
+        for (to = first; spline_list_together(document, first, to);) to++;
+        spline_list_place(core, to, to > first ? NULL : document->splines[first]->name);
+    }
     if (change == LIST_SOLO || change == LIST_HIDE || change == LIST_LOCK)
         spline_list_flip(core, (enum list_change)change, active, active + 1);
 }

@@ -540,21 +540,84 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     return hover;
 }
 
-/// On a curve or beside all: a click chooses, a double-click inserts a knot, a drag starts a box.
-static void press_plot(void *room, struct core *core, const struct hover *hover, const struct event *event)
+static struct rect box_rect(const struct drag *drag)
+{
+    return (struct rect){fminf(drag->start_x, drag->x), fminf(drag->start_y, drag->y), fabsf(drag->x - drag->start_x),
+                         fabsf(drag->y - drag->start_y)};
+}
+
+/// Selects or deselects one spline's knots in the box; on the dope sheet only their time counts.
+static void take_inside(const struct curves *curves, struct core *core, int s)
+{
+    const struct rect box = box_rect(&core->input.drag);
+    const struct spline *spline = core->document->splines[s];
+    for (int k = curves_knot_from(core, spline, box.x); k < spline->knot_count && !spline->locked; k++) {
+        const struct knot *knot = &spline->knots[k];
+        const float x = curves_knot_x(core, knot), y = curves_knot_y(curves, core, s, knot);
+        if (x >= box.x + box.w) break;
+        if (x >= box.x && (curves->knot_drag.in_sheet || rect_contains(box, x, y)))
+            selection_set(&core->focus.selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
+    }
+}
+
+static void draw_box(void *room, struct core *core)
+{
+    const struct curves *curves = room;
+    const struct document *document = core->document;
+    selection_copy(&core->focus.selection, &curves->before_box);
+    if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->focus.selection);
+    for (int s = 0; curves->knot_drag.in_sheet && s < document->spline_count; s++) {
+        if (sheet_row_in(curves, core, s, box_rect(&core->input.drag))) take_inside(curves, core, s);
+    }
+    if (curves->knot_drag.in_sheet) return;
+    if (spline_list_seen(core)) take_inside(curves, core, core->focus.active);
+    for (int i = 0; i < curves->cache.other_count; i++) {
+        const int other = curves_other(curves, document, i);
+        if (other >= 0) take_inside(curves, core, other);
+    }
+}
+
+static void show_box(void *room, struct core *core)
+{
+    const struct curves *curves = room;
+    const struct rect r = box_rect(&core->input.drag);
+    if (!core->input.drag.moved) return;
+    const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
+    uint32_t color = curves->knot_drag.box == BOX_REMOVE ? theme()->error : theme()->playhead;
+    struct rect clip = drawlist_push_clip(&core->list, core->view.layout.curves);
+    drawlist_set_clip(&core->list, curves->knot_drag.in_sheet ? core->view.layout.sheet : core->view.layout.plot);
+    drawlist_rect(&core->list, r, theme_fade(color, 0.08f));
+    drawlist_dashed(&core->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
+    drawlist_set_clip(&core->list, clip);
+}
+
+static void box_begin(struct curves *curves, struct core *core, const struct event *event)
+{
+    static const struct drag_owner owner = {
+        .cursor = CURSOR_ARROW, .move = draw_box, .end = end_box, .show = show_box};
+    drag_begin(core, &owner, curves, NULL, event);
+    curves->knot_drag = (struct knot_drag){0};
+    bool removes = event->mods & (MOD_CTRL | MOD_ALT);
+    curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
+    selection_copy(&curves->before_box, &core->focus.selection);
+}
+
+void curves_press_empty(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     struct curves *curves = room;
-    const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
-    if (event->clicks == 2 && hover->thing) {
-        core_activate(core, hover->spline);
-        core_insert_knot(core, curves_frame(core, event->x), NAN, drag_snaps(core, event->mods),
-                         event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
-    } else if (event->clicks == 2) {
-        double value = core_round(curves_value(core, event->y), 0.01 / curves_pixels_per_value(core));
-        core_insert_knot(core, curves_frame(core, event->x), value, drag_snaps(core, event->mods), HOLDS_VALUE);
+    const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT), twice = event->clicks == 2;
+    const bool on_sheet = hover->thing == &thing_row;
+    if (hover->thing && (twice ? on_sheet : !keeps)) core_choose(core, hover->spline);
+    if (hover->thing && twice) core_activate(core, hover->spline);
+    if (on_sheet && !rect_contains(core->view.layout.sheet, event->x, event->y)) return;
+    if (twice) {
+        const double value = core_round(curves_value(core, event->y), 0.01 / curves_pixels_per_value(core));
+        core_insert_knot(core, curves_frame(core, event->x), hover->thing ? NAN : value,
+                         drag_snaps(core, event->mods),
+                         hover->thing && event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
     } else {
-        if (hover->thing && !keeps) core_choose(core, hover->spline);
         box_begin(curves, core, event);
+        curves->knot_drag.in_sheet = on_sheet;
     }
 }
 
@@ -567,7 +630,7 @@ static bool find_curve(void *room, const struct core *core, const struct target 
 /// curve(sway,36,1): a frame and a value.
 const struct thing thing_curve = {.cursor = CURSOR_HAND,
                                   .hint = "Click to edit this spline",
-                                  .press = press_plot,
+                                  .press = curves_press_empty,
                                   .name = "curve",
                                   .of = OF_SPLINE,
                                   .numbers = 2,
@@ -576,7 +639,7 @@ const struct thing thing_curve = {.cursor = CURSOR_HAND,
 
 const struct thing thing_active_curve = {
     .hint = "Double-click to insert a knot on the curve, with Shift a pose; drag to select with a box",
-    .press = press_plot};
+    .press = curves_press_empty};
 
 /// The corner of the ruler.
 static void press_switch(void *room, struct core *core, const struct hover *hover, const struct event *event)
@@ -662,7 +725,7 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
     if (hover.thing) {
         hover.thing->press(curves, core, &hover, event);
     } else if (rect_contains(core->view.layout.plot, event->x, event->y)) {
-        press_plot(curves, core, &hover, event);
+        curves_press_empty(curves, core, &hover, event);
     }
 }
 
@@ -680,68 +743,6 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
     if (on_sheet) value = 1; // the dope sheet zooms time only
     curves_zoom(curves, core, event->x, event->y, time, value);
-}
-
-static struct rect box_rect(const struct drag *drag)
-{
-    return (struct rect){fminf(drag->start_x, drag->x), fminf(drag->start_y, drag->y), fabsf(drag->x - drag->start_x),
-                         fabsf(drag->y - drag->start_y)};
-}
-
-/// Selects or deselects one spline's knots in the box; on the dope sheet only their time counts.
-static void take_inside(const struct curves *curves, struct core *core, int s)
-{
-    const struct rect box = box_rect(&core->input.drag);
-    const struct spline *spline = core->document->splines[s];
-    for (int k = curves_knot_from(core, spline, box.x); k < spline->knot_count && !spline->locked; k++) {
-        const struct knot *knot = &spline->knots[k];
-        const float x = curves_knot_x(core, knot), y = curves_knot_y(curves, core, s, knot);
-        if (x >= box.x + box.w) break;
-        if (x >= box.x && (curves->knot_drag.in_sheet || rect_contains(box, x, y)))
-            selection_set(&core->focus.selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
-    }
-}
-
-static void draw_box(void *room, struct core *core)
-{
-    const struct curves *curves = room;
-    const struct document *document = core->document;
-    selection_copy(&core->focus.selection, &curves->before_box);
-    if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->focus.selection);
-    for (int s = 0; curves->knot_drag.in_sheet && s < document->spline_count; s++) {
-        if (sheet_row_in(curves, core, s, box_rect(&core->input.drag))) take_inside(curves, core, s);
-    }
-    if (curves->knot_drag.in_sheet) return;
-    if (spline_list_seen(core)) take_inside(curves, core, core->focus.active);
-    for (int i = 0; i < curves->cache.other_count; i++) {
-        const int other = curves_other(curves, document, i);
-        if (other >= 0) take_inside(curves, core, other);
-    }
-}
-
-static void show_box(void *room, struct core *core)
-{
-    const struct curves *curves = room;
-    const struct rect r = box_rect(&core->input.drag);
-    if (!core->input.drag.moved) return;
-    const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
-    uint32_t color = curves->knot_drag.box == BOX_REMOVE ? theme()->error : theme()->playhead;
-    struct rect clip = drawlist_push_clip(&core->list, core->view.layout.curves);
-    drawlist_set_clip(&core->list, curves->knot_drag.in_sheet ? core->view.layout.sheet : core->view.layout.plot);
-    drawlist_rect(&core->list, r, theme_fade(color, 0.08f));
-    drawlist_dashed(&core->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
-    drawlist_set_clip(&core->list, clip);
-}
-
-void box_begin(struct curves *curves, struct core *core, const struct event *event)
-{
-    static const struct drag_owner owner = {
-        .cursor = CURSOR_ARROW, .move = draw_box, .end = end_box, .show = show_box};
-    drag_begin(core, &owner, curves, NULL, event);
-    curves->knot_drag = (struct knot_drag){0};
-    bool removes = event->mods & (MOD_CTRL | MOD_ALT);
-    curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
-    selection_copy(&curves->before_box, &core->focus.selection);
 }
 
 // Warnings on the curves: their marks and fixes.

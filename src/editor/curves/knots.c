@@ -439,34 +439,26 @@ static enum drag_answer scale_event(void *room, struct core *core, const struct 
     const bool press = event->action != ACTION_RELEASE;
     const bool sign = c == '-' && !*number, point = (c == '.' || c == ',') && !strchr(number, '.');
     const bool digit = c >= '0' && c <= '9', next = c == ' ' && !space && *number;
-    switch (event->kind) {
-    case EVENT_BUTTON:
-        if (scaling->handle >= 0) return DRAG_PASSES;
+    if (event->kind == EVENT_WHEEL) return DRAG_USED; // the factor is measured in pixels: no zooming meanwhile
+    if (event->kind == EVENT_BUTTON && scaling->handle < 0)
         return !press ? DRAG_USED : event->button == BUTTON_LEFT ? DRAG_KEEP : DRAG_TAKE_BACK;
-    case EVENT_KEY:
-        if (!press) return DRAG_PASSES; // of a key that was held before, the release is somebody else's
-        if (event->key == KEY_ESCAPE) return DRAG_TAKE_BACK;
-        if (event->key == KEY_ENTER) return DRAG_KEEP;
-        if (event->key == 'P') {
-            drag_restart(core);
-            scaling->pivot = next_pivot(scaling);
-            place_pivot(curves, core);
-        } else if (event->key == KEY_BACKSPACE) {
-            if (length > 0) scaling->typed[length - 1] = 0;
-        } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) ||
-                   !drag_lock(&core->input.drag, event->key)) {
-            return DRAG_USED;
-        }
-        break;
-    case EVENT_TEXT: // characters, because keyboard layouts differ; a space comes before a second factor
+    if (event->kind ==
+        EVENT_TEXT) { // characters, because keyboard layouts differ; a space comes before a second factor
         if (!(digit || sign || point || next) || length + 1 >= sizeof scaling->typed) return DRAG_USED;
         scaling->typed[length] = (char)(c == ',' ? '.' : c);
         scaling->typed[length + 1] = 0;
-        break;
-    case EVENT_WHEEL: // the factor is measured in pixels: no zooming meanwhile
+    } else if (event->kind != EVENT_KEY || !press) {
+        return DRAG_PASSES; // of a key that was held before, the release is somebody else's
+    } else if (event->key == KEY_ESCAPE || event->key == KEY_ENTER) {
+        return event->key == KEY_ENTER ? DRAG_KEEP : DRAG_TAKE_BACK;
+    } else if (event->key == 'P') {
+        drag_restart(core);
+        scaling->pivot = next_pivot(scaling);
+        place_pivot(curves, core);
+    } else if (event->key == KEY_BACKSPACE) {
+        if (length > 0) scaling->typed[length - 1] = 0;
+    } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) || !drag_lock(&core->input.drag, event->key)) {
         return DRAG_USED;
-    default:
-        return DRAG_PASSES;
     }
     drag_start_moving(core);
     core->input.drag.stale = true;
@@ -743,27 +735,10 @@ struct hover sheet_hover(const struct curves *curves, const struct core *core, f
     return hover;
 }
 
-/// Beside the marks: activates the spline; a double-click inserts a knot on its curve, a drag starts a box.
-static void press_row(void *room, struct core *core, const struct hover *hover, const struct event *event)
-{
-    struct curves *curves = room;
-    const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
-    const bool inside = rect_contains(core->view.layout.sheet, event->x, event->y);
-    if (!keeps || event->clicks == 2) core_choose(core, hover->spline);
-    if (!inside) return;
-    if (event->clicks == 2) {
-        core_insert_knot(core, curves_frame(core, event->x), NAN, drag_snaps(core, event->mods),
-                         event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
-        return;
-    }
-    box_begin(curves, core, event);
-    curves->knot_drag.in_sheet = true;
-}
-
 const struct thing thing_row = {
     .hint = "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box",
     .place = ON_TIME,
-    .press = press_row};
+    .press = curves_press_empty};
 
 /// The height of a spline's row; NAN: it has none.
 static float row_of(const struct curves *curves, const struct core *core, int spline)

@@ -202,8 +202,9 @@ void sheet_show(const struct curves *curves, struct core *core);
 void scale_box_hover(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover);
 /// Draws the box around several selected knots.
 void scale_box_show(const struct curves *curves, struct core *core, bool handles);
-/// Starts a box selection; Shift adds, Ctrl or Alt removes.
-void box_begin(struct curves *curves, struct core *core, const struct event *event);
+/// On a curve, in a row of the dope sheet or beside all: a click chooses, a double-click inserts a knot, a drag selects with a box (Shift adds,
+/// Ctrl or Alt removes).
+void curves_press_empty(void *room, struct core *core, const struct hover *hover, const struct event *event);
 
 /// Length in pixels: 12 more for ten times the stiffness.
 double handle_length(double stiffness);
