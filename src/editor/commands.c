@@ -171,6 +171,14 @@ static void run_panel(struct editor *editor, int inspector)
 
 enum { CTRL = MOD_CTRL, SHIFT = MOD_SHIFT, ALT = MOD_ALT, CTRL_SHIFT = MOD_CTRL | MOD_SHIFT, TYPED = CHORD_TYPED };
 
+/// The headings in F1, in its order.
+static const char ABOUT_KNOTS[] = "Knots", ABOUT_DRAG[] = "While dragging", ABOUT_SLOPES[] = "Slopes and poses",
+                  ABOUT_SPLINE[] = "Splines", ABOUT_PLAYBACK[] = "Playback", ABOUT_CURVES[] = "Curves",
+                  ABOUT_STAGE[] = "Stage", ABOUT_PINS[] = "Pins", ABOUT_INSPECTOR[] = "Inspector",
+                  ABOUT_WINDOW[] = "Window";
+const char ABOUT_FILE[] = "File and edits";
+#define ABOUT_NOTHING NULL
+
 /// A row: its name, heading, places, need, when its key works, its function with its argument, its key.
 #define COMMAND(...) ALSO("", __VA_ARGS__)
 /// The same, which other words find, too.

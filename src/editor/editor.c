@@ -226,8 +226,14 @@ static bool use_control(struct core *core, int control, const struct event *even
     return true;
 }
 
-static void paint_control(const struct core *core, struct drawlist *list, int control, struct rect r, bool hot)
+static float size_of(enum font font) { return font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL; }
+
+/// Lays out the controls from left to right; returns their right end.
+static float lay_out_controls(struct editor *editor)
 {
+    struct ui *ui = &editor->status;
+    struct core *core = &editor->core;
+    enum { MARGIN = 6, NARROW = 420 /* a window without the least of them */ };
     const struct playback *playback = &core->view.playback;
     char speed[16], size[16];
     snprintf(speed, sizeof speed, "%g×", playback->speed);
@@ -237,28 +243,6 @@ static void paint_control(const struct core *core, struct drawlist *list, int co
                        [KEEP] = core->view.on[SWITCH_KEEP], [SIZE] = core->app.figures->ui_scale != 1};
     const char *const words[CONTROLS] = {
         [LOOP] = "Loop", [SPEED] = speed, [AUTO_KEY] = "Auto-key", [KEEP] = "Keep", [SIZE] = size};
-    const uint32_t color = on[control] ? theme()->accent : hot ? theme()->text : theme()->text_dim;
-    if (control == PLAY) {
-        const float x = r.x + 6, y = r.y + r.h / 2;
-        const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
-        if (!playback->playing) drawlist_convex(list, triangle, 3, color);
-        for (int bar = 0; bar < 2 && playback->playing; bar++)
-            drawlist_rect(list, (struct rect){x + 5 * (float)bar, y - 5, 3, 10}, color);
-    } else {
-        const bool is_number = control == SPEED || control == SIZE;
-        const enum font font = is_number ? FONT_NUMBER : FONT_LABEL;
-        const float high = is_number ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
-        const float x = roundf(r.x + (r.w - font_width(font, high, words[control])) / 2);
-        drawlist_text(list, x, ui_baseline(r, font, high), font, high, color, words[control]);
-    }
-}
-
-/// Lays out the controls from left to right; returns their right end.
-static float lay_out_controls(struct editor *editor)
-{
-    struct ui *ui = &editor->status;
-    struct core *core = &editor->core;
-    enum { MARGIN = 6, NARROW = 420 /* a window without the least of them */ };
     const struct rect bar = core->view.layout.status;
     struct rect r = {bar.x + MARGIN, bar.y + 2, 0, bar.h - 3};
     for (int c = 0; c < CONTROLS && !is_covered(core); c++) {
@@ -268,8 +252,20 @@ static float lay_out_controls(struct editor *editor)
         ui_register(ui, ui_id(ui, controls[c].name), r);
         ui_hint(ui, r, controls[c].hint);
         const bool hot = ui_hovered(ui, r);
-        if (ui->pass == UI_PASS_DRAW) paint_control(core, ui->list, c, r, hot);
         if (ui->pass == UI_PASS_EVENT && hot && !ui->used) ui->used = use_control(core, c, ui->event);
+        if (ui->pass != UI_PASS_DRAW) continue;
+        const uint32_t color = on[c] ? theme()->accent : hot ? theme()->text : theme()->text_dim;
+        if (c == PLAY) {
+            const float x = r.x + 6, y = r.y + r.h / 2;
+            const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
+            if (!playback->playing) drawlist_convex(ui->list, triangle, 3, color);
+            for (int i = 0; i < 2 && playback->playing; i++)
+                drawlist_rect(ui->list, (struct rect){x + 5 * (float)i, y - 5, 3, 10}, color);
+        } else {
+            const enum font font = c == SPEED || c == SIZE ? FONT_NUMBER : FONT_LABEL;
+            const float width = font_width(font, size_of(font), words[c]), x = roundf(r.x + (r.w - width) / 2);
+            drawlist_text(ui->list, x, ui_baseline(r, font, size_of(font)), font, size_of(font), color, words[c]);
+        }
     }
     return r.x + r.w;
 }
@@ -326,9 +322,7 @@ static const char *hint_of(const struct editor *editor)
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
 {
-    float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
-    float y = ui_baseline(r, font, size);
-    drawlist_text_fit(list, r.x, y, r.w, font, size, color, text);
+    drawlist_text_fit(list, r.x, ui_baseline(r, font, size_of(font)), r.w, font, size_of(font), color, text);
 }
 
 void status_show(struct editor *editor)

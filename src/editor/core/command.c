@@ -4,13 +4,6 @@
 #include "editor/core/rigs.h"
 #include <stdio.h>
 
-const char *const about_titles[ABOUT_COUNT] = {
-    [ABOUT_KNOTS] = "Knots",         [ABOUT_DRAG] = "While dragging", [ABOUT_SLOPES] = "Slopes and poses",
-    [ABOUT_SPLINE] = "Splines",      [ABOUT_PLAYBACK] = "Playback",   [ABOUT_CURVES] = "Curves",
-    [ABOUT_STAGE] = "Stage",         [ABOUT_PINS] = "Pins",           [ABOUT_INSPECTOR] = "Inspector",
-    [ABOUT_FILE] = "File and edits", [ABOUT_WINDOW] = "Window",
-};
-
 void needs_missing(const struct core *core, const char *missing[NEEDS_COUNT])
 {
     const struct document *document = core->document;

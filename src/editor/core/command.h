@@ -8,24 +8,6 @@ struct editor;
 struct curves;
 struct inspector;
 
-/// The heading in F1.
-enum about {
-    ABOUT_KNOTS,
-    ABOUT_DRAG,
-    ABOUT_SLOPES,
-    ABOUT_SPLINE,
-    ABOUT_PLAYBACK,
-    ABOUT_CURVES,
-    ABOUT_STAGE,
-    ABOUT_PINS,
-    ABOUT_INSPECTOR,
-    ABOUT_FILE,
-    ABOUT_WINDOW,
-    ABOUT_COUNT,
-    ABOUT_NOTHING = ABOUT_COUNT ///< not in F1
-};
-extern const char *const about_titles[ABOUT_COUNT];
-
 /// Bits for the place under the pointer. F1 begins with ten rows about it.
 enum place {
     ON_CURVES = 1,
@@ -83,12 +65,15 @@ struct chord {
 
 enum { COMMAND_KEYS = 96 }; ///< bytes for a key's name, or a gesture's
 
+/// The heading of the commands that the palette lists last.
+extern const char ABOUT_FILE[];
+
 /// A row of the table. A row without a function is a gesture, listed only in F1.
 struct command {
-    const char *name; ///< NULL: not listed
-    const char *also; ///< other words for it, which the palette finds; NULL for a gesture
-    enum about about;
-    unsigned at; ///< of enum place
+    const char *name;  ///< NULL: not listed
+    const char *also;  ///< other words for it, which the palette finds; NULL for a gesture
+    const char *about; ///< its heading in F1; NULL: not in F1
+    unsigned at;       ///< of enum place
     struct chord chord;
     enum need needs;
     unsigned when;       ///< of enum when

@@ -311,18 +311,6 @@ void bones_clicked(struct core *core, int model, int node)
     }
 }
 
-/// The gain with which a channel bends its chain as far as its joint has moved.
-static double gain_for(const struct core *core, int model, const struct chain *chain, const struct channel *channel)
-{
-    const struct imported *character = bones_character(core, model);
-    struct chain_bones bones;
-    if (!chain_find(&character->gltf, chain->from, chain->to, &bones, NULL)) return 1;
-    const double wanted = chain_bend_a_metre(character, &bones, core->document->rigs[model]->model.scale);
-    const double bend = angles_at(&channel->gain, 0, bones.count);
-    const double gain = wanted / bend;
-    return isfinite(gain) && gain > 0 ? core_round(gain, 0.01 * gain) : 1;
-}
-
 void bones_follow(struct core *core, int spline, int model, int node)
 {
     const struct document *document = core->document;
@@ -344,7 +332,14 @@ void bones_follow(struct core *core, int spline, int model, int node)
         motion.chain = bent->name;
         motion.joint = bent->chain.to;
         motion.of = channel->axis == AXIS_SIDE ? MOTION_ACROSS : channel->axis == AXIS_UP ? MOTION_UP : MOTION_TURN;
-        if (motion.of != MOTION_TURN) motion.gain = gain_for(core, model, &bent->chain, channel);
+        const struct chain *chain = &bent->chain;
+        struct chain_bones bones;
+        if (motion.of != MOTION_TURN && chain_find(&character->gltf, chain->from, chain->to, &bones, NULL)) {
+            // The gain with which the channel bends the chain as far as its joint has moved.
+            const double wanted = chain_bend_a_metre(character, &bones, rig->model.scale);
+            const double gain = wanted / angles_at(&channel->gain, 0, bones.count);
+            if (isfinite(gain) && gain > 0) motion.gain = core_round(gain, 0.01 * gain);
+        }
     }
     const bool goes_on =
         old->motion && document_find_model(document, old->motion->model, old->motion->by_file) == model;
@@ -481,9 +476,9 @@ int characters_rig(const struct core *core)
 {
     const struct document *document = core->document;
     const int chosen = document_find_rig(document, RIG_MODEL, core->focus.characters.character);
-    int rig = chosen;
+    int rig = -1;
     if (chosen >= 0 && rigs_is_soft(core, chosen)) return chosen;
-    for (rig = -1; (rig = document_next_rig(document, RIG_MODEL, rig)) >= 0 && !rigs_is_soft(core, rig);) continue;
+    while ((rig = document_next_rig(document, RIG_MODEL, rig)) >= 0 && !rigs_is_soft(core, rig)) continue;
     return rig;
 }
 

@@ -211,23 +211,6 @@ void spline_list_fps(struct core *core, double fps)
         fps > before ? "faster" : "slower");
 }
 
-static int count_outside(const struct document *document, int first, int last)
-{
-    struct document moved = *document;
-    int count = 0;
-    moved.first_frame = first;
-    moved.last_frame = last;
-    for (int s = 0; s < document->spline_count; s++) {
-        const struct spline *spline = document->splines[s];
-        int end = document_last_knot_sample(&moved, spline);
-        for (int k = 0; k < spline->knot_count; k++) {
-            int sample = document_sample(&moved, spline->knots[k].frame);
-            count += sample < 0 || sample > end;
-        }
-    }
-    return count;
-}
-
 static void answer_range(void *of, int answer)
 {
     static const enum range_fit fits[] = {RANGE_MOVE, RANGE_TRIM, RANGE_REFUSE};
@@ -243,7 +226,18 @@ void spline_list_range(struct core *core, int first, int last)
         {"dialog.move", "Move", 'M'}, {"dialog.trim", "Trim", 'T'}, {"dialog.cancel", "Cancel", 'C'}};
     const bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
                           (long long)last - first <= document_longest(core->document);
-    const int count = possible ? count_outside(core->document, first, last) : 0;
+    struct document moved = *core->document;
+    moved.first_frame = first;
+    moved.last_frame = last;
+    int count = 0; // of knots outside
+    for (int s = 0; s < moved.spline_count && possible; s++) {
+        const struct spline *spline = moved.splines[s];
+        const int end = document_last_knot_sample(&moved, spline);
+        for (int k = 0; k < spline->knot_count; k++) {
+            const int sample = document_sample(&moved, spline->knots[k].frame);
+            count += sample < 0 || sample > end;
+        }
+    }
     core->subject.first = first;
     core->subject.last = last;
     if (count == 0) {
@@ -446,11 +440,6 @@ void core_toggle_pose_to_pose(struct core *core, int unused)
     core_pose_to_pose(core, core_limb(core));
 }
 
-/// Rounded as in files.
-static double frequency_of(const wiggly_explanation *found) { return round(found->frequency * 100) / 100; }
-
-static double damping_of(const wiggly_explanation *found) { return round(found->damping * 1000) / 1000; }
-
 void core_find_frequency(struct core *core, int unused)
 {
     (void)unused;
@@ -471,12 +460,16 @@ void core_find_frequency(struct core *core, int unused)
         core_message(core, false, "%s", reason ? reason : "These knots do not swing: no frequency explains them.");
         return;
     }
-    const bool is_set = p[PARAMETER_FREQUENCY].value == frequency_of(&found[0]) &&
-                        p[PARAMETER_DAMPING].value == damping_of(&found[0]);
+    double rounded[2][2]; // frequency and damping, as in files
+    for (int i = 0; i < count; i++) {
+        rounded[i][0] = round(found[i].frequency * 100) / 100;
+        rounded[i][1] = round(found[i].damping * 1000) / 1000;
+    }
+    const bool is_set = p[PARAMETER_FREQUENCY].value == rounded[0][0] && p[PARAMETER_DAMPING].value == rounded[0][1];
     const int active = core->focus.active, chosen = count == 2 && is_set ? 1 : 0;
     if (!core_step(core, "Find frequency", 0) ||
-        !core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) ||
-        !core_set_parameter(core, active, PARAMETER_DAMPING, damping_of(&found[chosen])))
+        !core_set_parameter(core, active, PARAMETER_FREQUENCY, rounded[chosen][0]) ||
+        !core_set_parameter(core, active, PARAMETER_DAMPING, rounded[chosen][1]))
         return;
     core_edited(core, core->focus.active);
     const char *which = chosen ? "Runner-up" : "Best";

@@ -410,14 +410,13 @@ static void scale_knots(void *room, struct core *core)
     char *end, *second_end;
     const double first = strtod(scaling->typed, &end), second = strtod(end, &second_end);
     if (end != scaling->typed) by = (struct factors){first, second_end != end ? second : first};
+    const double free_time = scaling->by.time;
     scaling->by.time = drag->lock_y ? 1 : fmin(fmax(by.time, -MOST), MOST);
     scaling->by.value = drag->lock_x ? 1 : fmin(fmax(by.value, -MOST), MOST);
 
     // Time stops at its last free factor; values may still change, unless all knots are on the pivot.
     scaling->stopped[0][0] = scaling->stopped[1][0] = 0;
-    if (originals_room(core, scaled_knot, curves, scaling->stopped[0]) != ROOM_FREE)
-        scaling->by.time = scaling->free_time;
-    scaling->free_time = scaling->by.time;
+    if (originals_room(core, scaled_knot, curves, scaling->stopped[0]) != ROOM_FREE) scaling->by.time = free_time;
     bool changes = scaling->by.value == 1 || scaling->by.time != 1;
     for (int i = 0; i < originals->count && !changes; i++)
         changes = !originals->list[i].knot.still &&
@@ -524,7 +523,7 @@ static void begin_scale(struct curves *curves, struct core *core, enum pivot piv
     struct scaling *scaling = &curves->scaling;
     const struct evaluation *evaluation = core->evaluation;
     double frames[2], values[2];
-    *scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
+    *scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}};
     curves->knot_drag = (struct knot_drag){0};
     core->message.text[0] = 0;
     core->input.hover = (struct hover){.thing = NULL};
@@ -671,35 +670,29 @@ enum { ROW = 16, SHEET_PAD = 3, MOST_ROWS = 6 }; ///< pixels; padding above and 
 static const float LEAST_PLOT = 90; ///< least height of the curves, in pixels
 static const float MARK_REACH = 7;  ///< pixels at which a mark is hit
 
-/// Lists the splines of all shown rows; returns how many.
-static int list_rows(const struct core *core, int first, int *splines, int most)
-{
-    int count = 0;
-    for (int s = 0; s < core->document->spline_count; s++) {
-        if (!spline_list_shows(core, s)) continue;
-        if (count >= first && count - first < most) splines[count - first] = s;
-        count++;
-    }
-    return count;
-}
-
 void sheet_update(struct curves *curves, struct core *core)
 {
     struct dope_sheet *sheet = &curves->sheet;
     const float room = core->view.layout.curves.h - core->view.layout.ruler.h - LEAST_PLOT - 2 * SHEET_PAD;
-    const int total = core->view.on[SWITCH_SHEET] ? list_rows(core, 0, NULL, 0) : 0;
+    int total = 0, active = 0; // how many splines are shown, and how many of them above the active one
+    for (int s = 0; core->view.on[SWITCH_SHEET] && s < core->document->spline_count; s++) {
+        total += spline_list_shows(core, s);
+        if (s < core->focus.active) active = total;
+    }
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
     if (sheet->active != core->focus.active_id) { // scroll its row into view
-        int active = 0;
-        for (int s = 0; s < core->focus.active; s++) active += spline_list_shows(core, s);
         sheet->list.view = (float)rows;
         if (spline_list_shows(core, core->focus.active)) ui_list_show(&sheet->list, (float)active, 1);
         sheet->active = core->focus.active_id;
     }
     sheet->rows = rows;
     ui_list_fit(&sheet->list, (float)rows, (float)total);
-    list_rows(core, (int)sheet->list.offset, sheet->spline, rows);
+    for (int s = 0, row = -(int)sheet->list.offset; row < rows && s < core->document->spline_count; s++) {
+        if (!spline_list_shows(core, s)) continue;
+        if (row >= 0) sheet->spline[row] = s;
+        row++;
+    }
     const float height = rows > 0 ? (float)(rows * ROW + 2 * SHEET_PAD) : 0;
     if (core->view.layout.sheet_height == height) return;
     core->view.layout.sheet_height = height;

@@ -61,7 +61,6 @@ struct scaling {
     double edge[2];      ///< frame and value of the knots at the handle
     double playhead[2], balance[2]; ///< frame and value of PIVOT_PLAYHEAD; of the equilibrium in the middle
     struct factors by;
-    double free_time;              ///< last factor that hit no knot
     char typed[16];                ///< one factor, or two with a space; replaces the pointer's
     char stopped[2][STOPPED_SIZE]; ///< what stopped time, and value, or ""
     char sentence[400];

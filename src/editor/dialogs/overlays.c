@@ -87,11 +87,11 @@ static void find_headed(const struct dialogs *dialogs, struct commands_found *fo
     for (int i = 0; i < all->count; i++) {
         if (all->commands[i].at & dialogs->lookup.at) add_found(found, &all->commands[i], NULL);
     }
-    enum about about = ABOUT_NOTHING;
+    const char *about = NULL;
     for (int i = 0; i < all->count; i++) {
         const struct command *command = &all->commands[i];
-        if (command->about == ABOUT_NOTHING) continue;
-        if (command->about != about) add_found(found, NULL, about_titles[command->about]);
+        if (!command->about) continue;
+        if (command->about != about) add_found(found, NULL, command->about);
         add_found(found, command, NULL);
         about = command->about;
     }
@@ -113,7 +113,7 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
         const struct command *command = &commands[i];
         char keys[COMMAND_KEYS], text[256];
         fits[i] = FIT_NOT;
-        if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
+        if (!command->name || !(runs ? command_runs(command) : command->about != NULL)) continue;
         const unsigned at = dialogs->lookup.at, in_curves = at & (ON_CURVES | ON_KNOT) ? IN_CURVES_MENU : 0;
         const unsigned places = at | in_curves | (at & ON_STAGE ? IN_STAGE_MENU : 0);
         if (runs && (command->at & IN_EXAMPLES) != (at & IN_EXAMPLES)) continue;
