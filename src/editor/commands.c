@@ -159,14 +159,10 @@ static double next_size(const double sizes[3], double present)
 static void run_panel(struct editor *editor, int inspector)
 {
     static const double shares[3] = {0.35, 0.575, 0.75}, widths[3] = {280, 360, 440};
-    double share = (double)editor->core.view.layout.stage_share,
-           width = (double)editor->core.view.layout.inspector_width;
-    if (inspector) {
-        width = next_size(widths, width);
-    } else {
-        share = next_size(shares, share);
-    }
-    core_set_panels(&editor->core, share, width);
+    const struct layout *layout = &editor->core.view.layout;
+    const double share = (double)layout->stage_share, width = (double)layout->inspector_width;
+    core_set_panels(&editor->core, inspector ? share : next_size(shares, share),
+                    inspector ? next_size(widths, width) : width);
 }
 
 enum { CTRL = MOD_CTRL, SHIFT = MOD_SHIFT, ALT = MOD_ALT, CTRL_SHIFT = MOD_CTRL | MOD_SHIFT, TYPED = CHORD_TYPED };

@@ -453,12 +453,9 @@ void selection_set(struct selection *selection, unsigned id, bool selected)
 {
     if (selected) selection_reserve(selection, id + 1);
     if (id >= selection->capacity) return;
-    uint64_t bit = UINT64_C(1) << (id % 64);
-    if (selected) {
-        selection->bits[id / 64] |= bit;
-    } else {
-        selection->bits[id / 64] &= ~bit;
-    }
+    uint64_t *word = &selection->bits[id / 64];
+    const uint64_t bit = UINT64_C(1) << (id % 64);
+    *word = selected ? *word | bit : *word & ~bit;
 }
 
 void selection_clear(struct selection *selection)

@@ -3,7 +3,6 @@
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
 #include "maths/maths.h"
-#include <math.h>
 
 static const float CLICK_REACH = 3; ///< pixels a click may move
 static const double FINE = 0.1;     ///< of the pointer's movement, with Shift
@@ -37,31 +36,25 @@ void drag_restart(const struct core *core)
     if (core->input.drag.moved && core->input.drag.label) history_restart(core->history);
 }
 
-/// Adds up the pointer's movement. Below CLICK_REACH the press stays a click.
-static void move(struct core *core, const struct event *event)
-{
-    struct drag *drag = &core->input.drag;
-    float dx = event->x - drag->x, dy = event->y - drag->y;
-    double fine = event->mods & MOD_SHIFT && drag->label ? FINE : 1;
-    if (drag->moved && !drag->label) drag->moved_x = drag->moved_y = 0;
-    drag->x = event->x;
-    drag->y = event->y;
-    drag->moved_x += dx * fine;
-    drag->moved_y += dy * fine;
-    drag->snap = drag_snaps(core, event->mods);
-    drag->stale = true;
-    if (!drag->moved && maths_hypotf(event->x - drag->start_x, event->y - drag->start_y) < CLICK_REACH) return;
-    drag_start_moving(core);
-    if (drag->owner->move) drag->owner->move(drag->room, core);
-}
-
 bool drag_event(struct core *core, const struct event *event)
 {
     struct drag *drag = &core->input.drag;
     enum drag_answer answer = DRAG_PASSES;
     if (!drag->owner) return false;
-    if (event->kind == EVENT_POINTER) {
-        move(core, event);
+    if (event->kind == EVENT_POINTER) { // adds up its movement; below CLICK_REACH the press stays a click
+        const float dx = event->x - drag->x, dy = event->y - drag->y;
+        const double fine = event->mods & MOD_SHIFT && drag->label ? FINE : 1;
+        if (drag->moved && !drag->label) drag->moved_x = drag->moved_y = 0;
+        drag->x = event->x;
+        drag->y = event->y;
+        drag->moved_x += dx * fine;
+        drag->moved_y += dy * fine;
+        drag->snap = drag_snaps(core, event->mods);
+        drag->stale = true;
+        const float away = maths_hypotf(event->x - drag->start_x, event->y - drag->start_y);
+        if (!drag->moved && away < CLICK_REACH) return true;
+        drag_start_moving(core);
+        if (drag->owner->move) drag->owner->move(drag->room, core);
         return true;
     }
     if (drag->owner->event) answer = drag->owner->event(drag->room, core, event);

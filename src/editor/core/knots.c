@@ -166,16 +166,23 @@ static int beside(const struct document *document, const struct spline *spline, 
     return direction < 0 ? before : after < spline->knot_count ? after : -1;
 }
 
+/// Selects a knot of the active spline alone, or as well; NULL: there is none at that index.
+static const struct knot *select_at(struct core *core, int k, bool as_well)
+{
+    const struct spline *spline = core_active_spline(core);
+    if (!spline || k < 0 || k >= spline->knot_count) return NULL;
+    if (!as_well) core_select_only(core, spline->knots[k].id);
+    selection_set(&core->focus.selection, spline->knots[k].id, true);
+    return &spline->knots[k];
+}
+
 const struct knot *core_select_neighbour(struct core *core, int direction)
 {
     const struct spline *spline = core_active_spline(core);
-    if (!spline || spline->locked || spline->knot_count == 0) return NULL;
-    int single = selection_single(&core->focus.selection, spline);
-    int next = single + direction;
-    if (single < 0) next = beside(core->document, spline, core->view.playback.position, direction);
-    if (next < 0 || next >= spline->knot_count) return NULL;
-    core_select_only(core, spline->knots[next].id);
-    return &spline->knots[next];
+    if (!spline || spline->locked) return NULL;
+    const int single = selection_single(&core->focus.selection, spline);
+    const int near = beside(core->document, spline, core->view.playback.position, direction);
+    return select_at(core, single < 0 ? near : single + direction, false);
 }
 
 const struct knot *core_visit_neighbour(struct core *core, int direction)
@@ -183,14 +190,9 @@ const struct knot *core_visit_neighbour(struct core *core, int direction)
     const struct document *document = core->document;
     const struct spline *spline = core_active_spline(core);
     const int next = spline ? beside(document, spline, core->view.playback.position, direction) : -1;
-    if (next < 0) {
-        core_message(core, false,
-                     direction < 0 ? "No knot lies before the playhead." : "No knot lies after the playhead.");
-        return NULL;
-    }
-    const struct knot *knot = &spline->knots[next];
-    core_select_only(core, knot->id);
-    playback_seek(core, document_frame(document, document_sample(document, knot->frame)));
+    const struct knot *knot = select_at(core, next, false);
+    if (knot) playback_seek(core, document_frame(document, document_sample(document, knot->frame)));
+    if (!knot) core_message(core, false, "No knot lies %s the playhead.", direction < 0 ? "before" : "after");
     return knot;
 }
 
@@ -201,11 +203,7 @@ const struct knot *core_extend_selection(struct core *core, int direction)
     for (int k = 0; spline && k < spline->knot_count; k++) {
         if (selection_has(&core->focus.selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
     }
-    if (end < 0) return core_select_neighbour(core, direction);
-    int next = end + direction;
-    if (next < 0 || next >= spline->knot_count) return NULL;
-    selection_set(&core->focus.selection, spline->knots[next].id, true);
-    return &spline->knots[next];
+    return end < 0 ? core_select_neighbour(core, direction) : select_at(core, end + direction, true);
 }
 
 // --- slopes: on, off, flat, Catmull-Rom, turned and stiffened by keys

@@ -796,90 +796,83 @@ static bool free_knot(struct document *document, const struct warning *warning, 
     return edit_knot_set(document, warning->spline, &knot, error);
 }
 
-/// Applies a remedy to any document, and describes it in a text that fits after "Click to" and "Done:".
-static bool remedy_apply(enum remedy remedy, struct document *document, const struct warning *warning,
-                         char text[FIX_TEXT], struct error *error)
+/// Remedies for each kind of warning. A later one must beat those before it, and doing nothing, by a factor.
+static const struct cure {
+    const char *label; ///< of the undo step
+    int count;
+    double worth;
+} cures[] = {
+    [WARNING_FAR] = {"Tame swing", 3, 1},         [WARNING_RATE] = {"Add substeps", 2, 1},
+    [WARNING_DRIFT] = {"Narrow bandwidth", 1, 1}, [WARNING_FORCED] = {"Free the phase", 3, 1.25},
+    [WARNING_SLOPE] = {"Slope off", 1, 1},        [WARNING_PHASE] = {"Free the phase", 1, 1},
+    [WARNING_WIND_UP] = {"Wind-up off", 1, 1},    [WARNING_SUDDEN] = {"Lengthen wind-up", 1, 1},
+    [WARNING_SETTLES] = {"Settle off", 1, 1},
+};
+
+/// Applies a warning's remedy of that rank, the gentlest first, to any document, and describes it in a text that fits after "Click to" and
+/// "Done:".
+static bool remedy_apply(int rank, struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                         struct error *error)
 {
+    const struct spline *spline = document->splines[warning->spline];
+    const bool is_pose = spline_mode(spline) == WIGGLY_COMPLEX; // outside complex mode a plain knot
+    const struct knot knot = {.frame = warning->frame,
+                              .value = warning->remedy,
+                              .has_phase = is_pose,
+                              .phase = is_pose ? warning->phase : 0,
+                              .stiffness = KNOT_DEFAULT_STIFFNESS};
+    const double now = spline->parameter[PARAMETER_FREQUENCY].value;
+    const double lower = core_round(0.99 * now * warning->limit / warning->amount, 0.01);
     bool good = true;
-    switch (remedy) {
-    case REMEDY_NONE:
-        break;
-    case REMEDY_RAISE_CALM:
-        snprintf(text, FIX_TEXT, "raise calm to 1");
-        return set_warned(document, warning, PARAMETER_CALM, 1, error);
-    case REMEDY_SET_LIMITS:
-        snprintf(text, FIX_TEXT, "set limits from %.6g to %.6g", warning->low, warning->high);
-        return set_warned(document, warning, PARAMETER_LOW, warning->low, error) &&
-               set_warned(document, warning, PARAMETER_HIGH, warning->high, error);
-    case REMEDY_ADD_KNOT: { // a pose, or outside complex mode a plain knot
-        const bool is_pose = spline_mode(document->splines[warning->spline]) == WIGGLY_COMPLEX;
-        const struct knot knot = {.frame = warning->frame,
-                                  .value = warning->remedy,
-                                  .has_phase = is_pose,
-                                  .phase = is_pose ? warning->phase : 0,
-                                  .stiffness = KNOT_DEFAULT_STIFFNESS};
+    switch (warning->kind) {
+    case WARNING_FAR:
+        if (rank == 0) {
+            snprintf(text, FIX_TEXT, "raise calm to 1");
+            return set_warned(document, warning, PARAMETER_CALM, 1, error);
+        }
+        if (rank == 1) {
+            snprintf(text, FIX_TEXT, "set limits from %.6g to %.6g", warning->low, warning->high);
+            return set_warned(document, warning, PARAMETER_LOW, warning->low, error) &&
+                   set_warned(document, warning, PARAMETER_HIGH, warning->high, error);
+        }
         snprintf(text, FIX_TEXT, "add a %s at frame %.6g", is_pose ? "pose" : "knot", warning->frame);
         return edit_knot_insert(document, warning->spline, &knot, error);
-    }
-    case REMEDY_ADD_SUBSTEPS: // keeps the motion
-        snprintf(text, FIX_TEXT, "use %.0f substeps per frame", warning->remedy);
-        return warning->remedy <= SCENE_MAX_SUBSTEPS && edit_substeps(document, (int)warning->remedy, error);
-    case REMEDY_LOWER_FREQUENCY: {
-        const double now = document->splines[warning->spline]->parameter[PARAMETER_FREQUENCY].value;
-        const double lower = core_round(0.99 * now * warning->limit / warning->amount, 0.01);
+    case WARNING_RATE:
+        if (rank == 0) { // keeps the motion
+            snprintf(text, FIX_TEXT, "use %.0f substeps per frame", warning->remedy);
+            return warning->remedy <= SCENE_MAX_SUBSTEPS && edit_substeps(document, (int)warning->remedy, error);
+        }
         snprintf(text, FIX_TEXT, "lower the frequency to %.3g Hz", lower);
         return set_warned(document, warning, PARAMETER_FREQUENCY, lower, error);
-    }
-    case REMEDY_NARROW_BANDWIDTH:
+    case WARNING_DRIFT:
         snprintf(text, FIX_TEXT, "narrow the bandwidth to %.3g", warning->remedy);
         return set_warned(document, warning, PARAMETER_BANDWIDTH, warning->remedy, error);
-    case REMEDY_FREE_LATER:
-        snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->to);
-        return free_knot(document, warning, warning->to, false, error);
-    case REMEDY_FREE_EARLIER:
-        snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->from);
-        return free_knot(document, warning, warning->from, false, error);
-    case REMEDY_FREE_BOTH:
-        snprintf(text, FIX_TEXT, "free the phases at frames %.6g and %.6g", warning->from, warning->to);
-        return free_knot(document, warning, warning->to, false, error) &&
-               free_knot(document, warning, warning->from, false, error);
-    case REMEDY_FREE_ALL:
+    case WARNING_FORCED: // the later phase, the earlier one, or both
+        snprintf(text, FIX_TEXT,
+                 rank == 2 ? "free the phases at frames %.6g and %.6g" : "free the phase at frame %.6g",
+                 rank == 0 ? warning->to : warning->from, warning->to);
+        return (rank == 1 || free_knot(document, warning, warning->to, false, error)) &&
+               (rank == 0 || free_knot(document, warning, warning->from, false, error));
+    case WARNING_SLOPE:
+        snprintf(text, FIX_TEXT, "switch off the slope at frame %.6g", warning->frame);
+        return free_knot(document, warning, warning->frame, true, error);
+    case WARNING_PHASE:
         for (int k = 0; k < document->splines[warning->spline]->knot_count && good; k++)
             good = free_knot(document, warning, document->splines[warning->spline]->knots[k].frame, false, error);
         snprintf(text, FIX_TEXT, "turn the spline's poses into plain knots");
         return good;
-    case REMEDY_DROP_SLOPE:
-        snprintf(text, FIX_TEXT, "switch off the slope at frame %.6g", warning->frame);
-        return free_knot(document, warning, warning->frame, true, error);
-    case REMEDY_DROP_WIND_UP:
+    case WARNING_WIND_UP:
         snprintf(text, FIX_TEXT, "set the wind-up to 0");
         return set_warned(document, warning, PARAMETER_WIND_UP, 0, error);
-    case REMEDY_LENGTHEN_WIND_UP:
+    case WARNING_SUDDEN:
         snprintf(text, FIX_TEXT, "lengthen the wind-up to %.3g periods", warning->remedy);
         return set_warned(document, warning, PARAMETER_WIND_UP, warning->remedy, error);
-    case REMEDY_UNSETTLE_ALL:
+    case WARNING_SETTLES:
         snprintf(text, FIX_TEXT, "let its knots be plain ones");
         return edit_spline_settles(document, warning->spline, false, error);
     }
     return false;
 }
-
-/// Remedies for each kind of warning, the gentlest first. A later one must beat those before it, and doing nothing, by a factor.
-static const struct cure {
-    const char *label; ///< of the undo step
-    enum remedy remedies[4];
-    double worth;
-} cures[] = {
-    [WARNING_FAR] = {"Tame swing", {REMEDY_RAISE_CALM, REMEDY_SET_LIMITS, REMEDY_ADD_KNOT}, 1},
-    [WARNING_RATE] = {"Add substeps", {REMEDY_ADD_SUBSTEPS, REMEDY_LOWER_FREQUENCY}, 1},
-    [WARNING_DRIFT] = {"Narrow bandwidth", {REMEDY_NARROW_BANDWIDTH}, 1},
-    [WARNING_FORCED] = {"Free the phase", {REMEDY_FREE_LATER, REMEDY_FREE_EARLIER, REMEDY_FREE_BOTH}, 1.25},
-    [WARNING_SLOPE] = {"Slope off", {REMEDY_DROP_SLOPE}, 1},
-    [WARNING_PHASE] = {"Free the phase", {REMEDY_FREE_ALL}, 1},
-    [WARNING_WIND_UP] = {"Wind-up off", {REMEDY_DROP_WIND_UP}, 1},
-    [WARNING_SUDDEN] = {"Lengthen wind-up", {REMEDY_LENGTHEN_WIND_UP}, 1},
-    [WARNING_SETTLES] = {"Settle off", {REMEDY_UNSETTLE_ALL}, 1},
-};
 
 /// The chosen fix, cached: the first remedy if it suffices, else the best. They are tried in copies of the document; `trial` keeps earlier
 /// results, so only what differs is solved. A kind's only remedy counts as enough.
@@ -888,17 +881,17 @@ static const struct fix *fix_of(struct curves *curves, const struct core *core, 
     struct fix *best = &curves->fixes[index];
     const struct warning *warning = &curves->warnings.list[index];
     const struct cure *cure = &cures[warning->kind];
-    const bool has_choice = cure->remedies[1] != REMEDY_NONE;
+    const bool has_choice = cure->count > 1;
     if (best->is_chosen) return best;
     struct evaluation trial = {.solver = core->evaluation->solver, .models = core->evaluation->models};
     double least = has_choice ? warning_left(warning, core->document, core->evaluation) : INFINITY;
-    *best = (struct fix){.is_chosen = true};
-    for (int i = 0; cure->remedies[i] && (i != 1 || least > 1); i++) {
-        struct fix fix = {true, cure->remedies[i], ""};
+    *best = (struct fix){.is_chosen = true, .rank = -1};
+    for (int rank = 0; rank < cure->count && (rank != 1 || least > 1); rank++) {
+        struct fix fix = {true, rank, ""};
         struct error error;
         struct document *document = document_copy(core->document);
         double left = INFINITY;
-        if (remedy_apply(fix.remedy, document, warning, fix.text, &error)) {
+        if (remedy_apply(rank, document, warning, fix.text, &error)) {
             left = 0;
             if (has_choice) {
                 evaluation_update(&trial, document, false);
@@ -926,9 +919,10 @@ static void press_warning(void *room, struct core *core, const struct hover *hov
     char text[FIX_TEXT + 8];
     core_activate(core, warning.spline);
     if (!core_active_spline(core) || !core_step(core, cures[warning.kind].label, 0)) return;
-    const bool good = fix.remedy && remedy_apply(fix.remedy, core->document, &warning, fix.text, &core->step.error);
+    const bool helps = fix.rank >= 0;
+    const bool good = helps && remedy_apply(fix.rank, core->document, &warning, fix.text, &core->step.error);
     snprintf(text, sizeof text, "Done: %s.", fix.text);
-    if (good || !fix.remedy) core_message(core, false, "%s", good ? text : NO_REMEDY);
+    if (good || !helps) core_message(core, false, "%s", good ? text : NO_REMEDY);
 }
 
 void curves_remedy_first(struct curves *curves, struct core *core, int unused)
@@ -996,7 +990,7 @@ void warnings_show_words(struct curves *curves, struct core *core)
     warning_say(&curves->warnings.list[index], what);
     if (!core->input.drag.owner) {
         const struct fix *fix = fix_of(curves, core, index);
-        snprintf(click, sizeof click, fix->remedy ? "Click to %s." : NO_REMEDY, fix->text);
+        snprintf(click, sizeof click, fix->rank >= 0 ? "Click to %s." : NO_REMEDY, fix->text);
     }
     const struct rect panel = core->view.layout.curves;
     float width =

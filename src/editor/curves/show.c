@@ -138,13 +138,15 @@ static void curves_update(struct curves *curves, struct core *core)
     struct curve_cache *cache = &curves->cache;
     const struct document *document = core->document;
     const struct evaluation *evaluation = core->evaluation;
-    uint64_t revision[2] = {history_revision(core->history), evaluation ? evaluation->revision : 0};
-    int choice[3] = {core->focus.active, (int)core->view.look, core->view.on[SWITCH_NORMALISE]};
-    bool held = core->view.on[SWITCH_NORMALISE] && core->input.drag.owner != NULL;
-    uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
-    key = hash_bytes(key, choice, sizeof choice);
-    key = hash_bytes(key, &held, sizeof held);
-    key = hash_bytes(key, &core->view.visibility, sizeof core->view.visibility);
+    const bool normalises = core->view.on[SWITCH_NORMALISE];
+    const uint64_t state[] = {history_revision(core->history),
+                              evaluation ? evaluation->revision : 0,
+                              (uint64_t)(core->focus.active + 1),
+                              (uint64_t)core->view.look,
+                              normalises,
+                              normalises && core->input.drag.owner,
+                              core->view.visibility};
+    uint64_t key = hash_bytes(HASH_START, state, sizeof state);
     key = hash_bytes(key, &core->view.plot, sizeof core->view.plot);
     key = hash_bytes(key, &core->view.layout.plot, sizeof core->view.layout.plot);
     if (key == 0) key = 1;
@@ -180,7 +182,7 @@ static void curves_update(struct curves *curves, struct core *core)
     draw_active(curves, core);
 
     // What normalised curves cover. During a drag it stays, so that the other curves hold still.
-    if (core->view.on[SWITCH_NORMALISE] && !core->input.drag.owner && evaluation) {
+    if (normalises && !core->input.drag.owner && evaluation) {
         cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
         for (int i = 0; i < 2 * cache->range_count; i++) {
             const int sample = evaluation_extreme(evaluation, i / 2, 0, evaluation->samples - 1, i % 2);
@@ -233,18 +235,10 @@ struct grid_step {
 /// The smallest of 1, 2, 5 · 10ⁿ that is not below `least`.
 static struct grid_step round_step(double least)
 {
-    double power = maths_power_of_ten(maths_decade(least));
-    double factor = least / power;
-    struct grid_step step = {power, 5, 0};
-    if (factor > 5) {
-        step.size = 10 * power;
-    } else if (factor > 2) {
-        step.size = 5 * power;
-    } else if (factor > 1) {
-        step = (struct grid_step){2 * power, 4, 0};
-    }
-    step.decimals = (int)fmin(fmax(-maths_decade((1 + 1e-9) * step.size), 0), 9);
-    return step;
+    const double power = maths_power_of_ten(maths_decade(least)), factor = least / power;
+    const double size = (factor > 5 ? 10 : factor > 2 ? 5 : factor > 1 ? 2 : 1) * power;
+    const int decimals = (int)fmin(fmax(-maths_decade((1 + 1e-9) * size), 0), 9);
+    return (struct grid_step){size, factor > 1 && factor <= 2 ? 4 : 5, decimals};
 }
 
 /// Rounds to device pixels, so that hairlines stay sharp at every scale.

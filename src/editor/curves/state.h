@@ -68,28 +68,10 @@ struct scaling {
 
 enum { FIX_TEXT = 96 };
 
-/// Edits that fix a warning.
-enum remedy {
-    REMEDY_NONE, ///< nothing helps
-    REMEDY_RAISE_CALM,
-    REMEDY_SET_LIMITS,
-    REMEDY_ADD_KNOT,
-    REMEDY_ADD_SUBSTEPS,
-    REMEDY_LOWER_FREQUENCY,
-    REMEDY_NARROW_BANDWIDTH,
-    REMEDY_FREE_LATER,
-    REMEDY_FREE_EARLIER,
-    REMEDY_FREE_BOTH,
-    REMEDY_FREE_ALL,
-    REMEDY_DROP_SLOPE,
-    REMEDY_DROP_WIND_UP,
-    REMEDY_LENGTHEN_WIND_UP,
-    REMEDY_UNSETTLE_ALL,
-};
-
+/// The edit that fixes a warning.
 struct fix {
     bool is_chosen; ///< chosen when the pointer first reaches the warning
-    enum remedy remedy;
+    int rank;       ///< among the remedies of that kind of warning; -1: nothing helps
     char text[FIX_TEXT];
 };
 

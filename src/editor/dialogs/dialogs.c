@@ -948,7 +948,8 @@ struct dialogs *dialogs_create(struct core *core, const struct command *commands
     struct dialogs *dialogs = need_zeroed(1, sizeof *dialogs);
     dialogs->core = core;
     dialogs->dialog.app = &core->app;
-    dialogs->commands = (struct command_list){commands, count};
+    dialogs->commands = commands;
+    dialogs->command_count = count;
     return dialogs;
 }
 

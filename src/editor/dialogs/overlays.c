@@ -80,20 +80,19 @@ static void find_headed(const struct dialogs *dialogs, struct commands_found *fo
         {ON_CURVES, "Over the curves"},    {ON_KNOT, "Over a knot"}, {ON_TIME, "Over the ruler and the status line"},
         {ON_STAGE, "Over the stage"},      {ON_PIN, "Over a pin"},   {ON_INSPECTOR, "In the inspector"},
         {ON_ROW, "Over the splines' list"}};
-    const struct command_list *all = &dialogs->commands;
+    const struct command *commands = dialogs->commands;
     for (size_t i = 0; i < sizeof titles / sizeof titles[0]; i++) {
         if (titles[i].place == dialogs->lookup.at) add_found(found, NULL, titles[i].title);
     }
-    for (int i = 0; i < all->count; i++) {
-        if (all->commands[i].at & dialogs->lookup.at) add_found(found, &all->commands[i], NULL);
+    for (int i = 0; i < dialogs->command_count; i++) {
+        if (commands[i].at & dialogs->lookup.at) add_found(found, &commands[i], NULL);
     }
     const char *about = NULL;
-    for (int i = 0; i < all->count; i++) {
-        const struct command *command = &all->commands[i];
-        if (!command->about) continue;
-        if (command->about != about) add_found(found, NULL, command->about);
-        add_found(found, command, NULL);
-        about = command->about;
+    for (int i = 0; i < dialogs->command_count; i++) {
+        if (!commands[i].about) continue;
+        if (commands[i].about != about) add_found(found, NULL, commands[i].about);
+        add_found(found, &commands[i], NULL);
+        about = commands[i].about;
     }
 }
 
@@ -102,8 +101,8 @@ static void find_headed(const struct dialogs *dialogs, struct commands_found *fo
 static struct page lookup_page(const struct dialogs *dialogs, struct commands_found *found)
 {
     const struct core *core = dialogs->core;
-    const struct command *commands = dialogs->commands.commands;
-    const int count = dialogs->commands.count;
+    const struct command *commands = dialogs->commands;
+    const int count = dialogs->command_count;
     const struct ui_filter *filter = &dialogs->lookup.filter;
     const bool menu = dialogs->lookup.kind == LOOKUP_MENU, runs = menu || dialogs->lookup.kind == LOOKUP_PALETTE;
     const char *missing[NEEDS_COUNT] = {NULL};
@@ -269,19 +268,6 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
 }
 
-/// Draws a field with its text, or what it is for.
-static void show_field(struct drawlist *drawn, struct rect field, const char *text, const char *empty)
-{
-    const bool typed = text[0] != '\0';
-    const float end = field.x + 10 + font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
-    drawlist_rounded(drawn, field, 4, theme()->raised);
-    drawlist_rounded_line(drawn, field, 4, 1.5f, theme()->accent);
-    paint_line(drawn, (struct rect){field.x + (typed ? 10 : 14), field.y, field.w - 20, field.h}, FONT_LABEL,
-               typed ? theme()->text : theme()->text_dim, typed ? text : empty);
-    drawlist_rect(drawn, (struct rect){roundf(fminf(end, field.x + field.w - 10)), field.y + 8, 1, field.h - 16},
-                  theme()->accent);
-}
-
 void lookup_show(const struct dialogs *dialogs)
 {
     struct core *core = dialogs->core;
@@ -297,11 +283,19 @@ void lookup_show(const struct dialogs *dialogs)
     drawlist_rounded(drawn, page.box, 8, theme()->panel);
     drawlist_rounded_line(drawn, page.box, 8, 1, theme()->zero);
 
-    const struct rect field = page.field;
-    if (!is_menu)
-        show_field(drawn, field, lookup->filter.typed,
-                   lookup->kind == LOOKUP_PALETTE && lookup->at != IN_EXAMPLES ? "Type what you want to do"
-                                                                               : "Type to search");
+    if (!is_menu) { // the field with its text, or what it is for
+        const struct rect field = page.field;
+        const char *typed = lookup->filter.typed, *text = typed;
+        const bool runs = lookup->kind == LOOKUP_PALETTE && lookup->at != IN_EXAMPLES;
+        if (!*typed) text = runs ? "Type what you want to do" : "Type to search";
+        const float end =
+            fminf(field.x + 10 + font_width(FONT_LABEL, THEME_TEXT_NORMAL, typed), field.x + field.w - 10);
+        drawlist_rounded(drawn, field, 4, theme()->raised);
+        drawlist_rounded_line(drawn, field, 4, 1.5f, theme()->accent);
+        paint_line(drawn, (struct rect){field.x + (*typed ? 10 : 14), field.y, field.w - 20, field.h}, FONT_LABEL,
+                   *typed ? theme()->text : theme()->text_dim, text);
+        drawlist_rect(drawn, (struct rect){roundf(end), field.y + 8, 1, field.h - 16}, theme()->accent);
+    }
     const struct rect body = page.body;
     struct rect row = {body.x + 10, body.y, body.w - 20, PALETTE_ROW};
     const int first = (int)list.offset, last = first + (int)page.view;

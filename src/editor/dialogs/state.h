@@ -6,12 +6,6 @@
 #include "editor/dialogs/dialogs.h"
 #include <limits.h>
 
-/// The table of editor/commands.c.
-struct command_list {
-    const struct command *commands;
-    int count;
-};
-
 /// What lists the commands: with their keys (F1), or to run them (F3, or for a place by a right-click).
 enum lookup_kind { LOOKUP_NONE, LOOKUP_KEYS, LOOKUP_PALETTE, LOOKUP_MENU };
 
@@ -80,7 +74,8 @@ struct exporting {
 
 struct dialogs {
     struct core *core;
-    struct command_list commands;
+    const struct command *commands; ///< the table of editor/commands.c
+    int command_count;
     struct dialog dialog;
     struct exporting exporting;
     struct lookup lookup;
