@@ -208,7 +208,7 @@ const struct command commands[] = {
     COMMAND("Select all knots of the spline", KNOTS, 0, KNOTS, 0, .core = core_select_all, 0, {'A', CTRL}),
     COMMAND("Select all knots in sight", KNOTS, 0, KNOTS, 0, .core = core_select_all, true, {'A', CTRL_SHIFT}),
     COMMAND("Deselect, or cancel", KNOTS, 0, NOTHING, 0, .run = run_select_none, 0, {KEY_ESCAPE, 0}),
-    ALSO("remove erase key", "Delete the selection", KNOTS, ON_KNOT | ON_PIN, CHOSEN, 0, .core = core_delete, 0,
+    ALSO("remove erase key", "Delete the selection", KNOTS, ON_KNOT | ON_PIN, CHOSEN, 0, .act = core_delete, 0,
          {KEY_DELETE, 0}),
     COMMAND("Next knot or pin", KNOTS, ON_KNOT | ON_PIN, KNOTS, REPEATS | PINS, .knot = core_select_neighbour, 1,
             {'.', TYPED}),
@@ -236,7 +236,7 @@ const struct command commands[] = {
          true, {'S', SHIFT}),
     ALSO("clean reduce thin knots", "Simplify: fewer knots", KNOTS, IN_CURVES_MENU, KNOTS, 0, .run = run_simplify,
          true, {0}),
-    ALSO("noise average jitter clean", "Smooth the selection", KNOTS, 0, SELECTED, 0, .core = core_smooth_knots, 0,
+    ALSO("noise average jitter clean", "Smooth the selection", KNOTS, 0, SELECTED, 0, .act = core_smooth_knots, 0,
          {0}),
     GESTURE("Drag their box", "Scale (Alt: the swing)", KNOTS, 0),
 
@@ -258,9 +258,9 @@ const struct command commands[] = {
             {'P', 0}),
     ALSO("stop hold", "Still: come to rest at the knot", SLOPES, ON_KNOT, SELECTED, 0, .core = core_set_hold,
          HOLDS_STILL, {'P', SHIFT}),
-    COMMAND("Settle at the knot's value", SLOPES, 0, SELECTED, 0, .core = core_toggle_settles, 0, {'P', ALT}),
+    COMMAND("Settle at the knot's value", SLOPES, 0, SELECTED, 0, .act = core_toggle_settles, 0, {'P', ALT}),
     ALSO("turn stay overshoot", "Pose to pose: settle at every knot", SLOPES, 0, SWING, 0,
-         .core = core_toggle_pose_to_pose, 0, {'P', MOD_ALT | MOD_SHIFT}),
+         .act = core_toggle_pose_to_pose, 0, {'P', MOD_ALT | MOD_SHIFT}),
 
     COMMAND("Next spline", SPLINE, ON_CURVES, SPLINE, REPEATS, .core = core_activate_neighbour, 1,
             {KEY_PAGE_DOWN, 0}),
@@ -269,10 +269,10 @@ const struct command commands[] = {
     GESTURE("Drag a row", "Move it, or into a folder", SPLINE, ON_ROW),
     COMMAND("Rename the spline", SPLINE, ON_ROW, SPLINE, 0, .inspector = inspector_rename, 0, {KEY_F2, 0}),
     ALSO("mode interpolation", "Next kind: wiggly, spring, cubic", SPLINE, ON_INSPECTOR | ON_ROW, SPLINE, 0,
-         .core = core_cycle_mode, 0, {'M', 0}),
-    ALSO("fit tempo", "Find the frequency of the knots", SPLINE, ON_INSPECTOR, SWING, 0, .core = core_find_frequency,
+         .act = core_cycle_mode, 0, {'M', 0}),
+    ALSO("fit tempo", "Find the frequency of the knots", SPLINE, ON_INSPECTOR, SWING, 0, .act = core_find_frequency,
          0, {'F', SHIFT}),
-    COMMAND("Compare: wiggly, stiff, cubic", SPLINE, ON_CURVES, NOTHING, ANY_TIME, .core = core_turn_look, 0,
+    COMMAND("Compare: wiggly, stiff, cubic", SPLINE, ON_CURVES, NOTHING, ANY_TIME, .act = core_turn_look, 0,
             {'V', 0}),
     ALSO("repair", "Fix the first warning", SPLINE, ON_CURVES, SPLINE, 0, .curves = curves_remedy_first, 0, {'W', 0}),
     ALSO("snapshot", "Keep the scene as before", SPLINE, 0, NOTHING, 0, .core = take_keep, true, {'K', SHIFT}),
@@ -281,7 +281,7 @@ const struct command commands[] = {
     GESTURE("Hold Z, press ↑ ↓", "Damping", SPLINE, 0),
     GESTURE("Hold L, press ↑ ↓", "Lag of the tail", SPLINE, 0),
 
-    ALSO("stop start", "Play or pause", PLAYBACK, ON_CURVES | ON_TIME, NOTHING, 0, .core = playback_toggle, 0,
+    ALSO("stop start", "Play or pause", PLAYBACK, ON_CURVES | ON_TIME, NOTHING, 0, .act = playback_toggle, 0,
          {KEY_SPACE, 0}),
     COMMAND("Next frame", PLAYBACK, ON_TIME, NOTHING, REPEATS, .core = playback_step, 1, {KEY_RIGHT, 0}),
     COMMAND("Previous frame", PLAYBACK, ON_TIME, NOTHING, REPEATS, .core = playback_step, -1, {KEY_LEFT, 0}),
@@ -289,7 +289,7 @@ const struct command commands[] = {
     COMMAND("Go to the end", PLAYBACK, 0, NOTHING, 0, .core = playback_end, 1, {KEY_RIGHT, SHIFT}),
     GESTURE("Drag the ruler", "Scrub", PLAYBACK, ON_TIME),
     GESTURE("Shift+drag it", "Play a part", PLAYBACK, ON_TIME),
-    ALSO("loop cycle seamless", "Close all curves", PLAYBACK, 0, SPLINE, 0, .core = core_close_curves, 0, {0}),
+    ALSO("loop cycle seamless", "Close all curves", PLAYBACK, 0, SPLINE, 0, .act = core_close_curves, 0, {0}),
     ALSO("range in part", "Play from here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 0,
          {KEY_HOME, CTRL}),
     ALSO("range out part", "Play up to here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 1,
@@ -416,7 +416,7 @@ const struct command commands[] = {
     PALETTE("Unfold Scene", NOTHING, .section = "section.scene", 0),
     PALETTE("Unfold History", NOTHING, .section = "section.history", 0),
     MENU("flip invert", "Paste mirrored", 0, SPLINE, .run = run_clipboard, CLIPBOARD_PASTE + PASTE_MIRRORED),
-    MENU("flip invert negative", "Mirror the selection about zero", 0, SELECTED, .core = core_mirror_knots, 0),
+    MENU("flip invert negative", "Mirror the selection about zero", 0, SELECTED, .act = core_mirror_knots, 0),
     PALETTE("Add a tail", NOTHING, .inspector = inspector_add, ADD_TAIL),
     MENU("import load", "Add a character or model from a file", 0, NOTHING, .inspector = inspector_add, ADD_FILE),
     MENU("reference footage video image", "Background picture or film", 0, NOTHING, .inspector = inspector_add,
@@ -441,7 +441,7 @@ const struct command commands[] = {
     MENU("protect", "Lock the spline, or unlock it", ON_ROW, SPLINE, .core = spline_list_change, LIST_LOCK),
     MENU("group", "Put into a folder, or take out", ON_ROW, SPLINE, .core = spline_list_change, LIST_FOLDER),
     PALETTE("Phase map on or off", PAINT, .core = core_flip, SWITCH_PHASE_MAP),
-    MENU("clean reset", "Remove all paint", 0, PAINT, .core = characters_clean_paint, 0),
+    MENU("clean reset", "Remove all paint", 0, PAINT, .act = characters_clean_paint, 0),
     MENU("flip symmetry", "Mirror the chain to the other side", 0, TWIN, .inspector = inspector_mirror, 0),
     PALETTE("Record the next drag of the body", BODY, .core = core_flip, SWITCH_RECORD),
     COMMAND("Nudge right", NOTHING, 0, CHOSEN, REPEATS | IN_STEPS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT}),
@@ -479,6 +479,7 @@ void command_run(struct editor *editor, const struct command *command)
     struct core *core = &editor->core;
     const int argument = command->argument;
     if (command->run) command->run(editor, argument);
+    if (command->act) command->act(core);
     if (command->core) command->core(core, argument);
     if (command->curves) command->curves(editor->curves, core, argument);
     if (command->inspector) command->inspector(editor->inspector, argument);
@@ -554,7 +555,7 @@ bool keys_event(struct editor *editor, const struct event *event)
             core->input.space_used = false;
         } else if (event->action == ACTION_RELEASE && core->input.space_down) {
             core->input.space_down = false;
-            if (!core->input.space_used) playback_toggle(core, 0);
+            if (!core->input.space_used) playback_toggle(core);
         }
         return true;
     }

@@ -196,7 +196,7 @@ static const struct {
     void (*click)(struct core *core, int argument);
     int argument;
 } controls[CONTROLS] = {
-    [PLAY] = {"play", "Play, pause (Space)", 24, playback_toggle, 0},
+    [PLAY] = {"play", "Play, pause (Space)", 24, NULL, 0},
     [LOOP] = {"loop", "Loop or stop at the end (Ctrl+L)", 42, core_flip, SWITCH_LOOP},
     [SPEED] = {"speed", "Click: faster; Shift+click: slower; right-click: real time (- and +, or the wheel)", 44,
                NULL, 0},
@@ -222,11 +222,10 @@ static bool use_control(struct core *core, int control, const struct event *even
     const int step = turns ? (event->dy > 0 ? 1 : -1) : !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
     if (control == SPEED) playback_change_speed(core, step);
     if (control == SIZE) core_request(core, &(struct request){.kind = REQUEST_UI_SCALE, .number = step});
+    if (control == PLAY && !turns && left) playback_toggle(core);
     if (!turns && left && controls[control].click) controls[control].click(core, controls[control].argument);
     return true;
 }
-
-static float size_of(enum font font) { return font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL; }
 
 /// Lays out the controls from left to right; returns their right end.
 static float lay_out_controls(struct editor *editor)
@@ -263,8 +262,9 @@ static float lay_out_controls(struct editor *editor)
                 drawlist_rect(ui->list, (struct rect){x + 5 * (float)i, y - 5, 3, 10}, color);
         } else {
             const enum font font = c == SPEED || c == SIZE ? FONT_NUMBER : FONT_LABEL;
-            const float width = font_width(font, size_of(font), words[c]), x = roundf(r.x + (r.w - width) / 2);
-            drawlist_text(ui->list, x, ui_baseline(r, font, size_of(font)), font, size_of(font), color, words[c]);
+            const float width = font_width(font, ui_text_size(font), words[c]), x = roundf(r.x + (r.w - width) / 2);
+            drawlist_text(ui->list, x, ui_baseline(r, font, ui_text_size(font)), font, ui_text_size(font), color,
+                          words[c]);
         }
     }
     return r.x + r.w;
@@ -320,11 +320,6 @@ static const char *hint_of(const struct editor *editor)
     return hints[lead][rigs_have_knots(core->document)];
 }
 
-static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
-{
-    drawlist_text_fit(list, r.x, ui_baseline(r, font, size_of(font)), r.w, font, size_of(font), color, text);
-}
-
 void status_show(struct editor *editor)
 {
     enum { GAP = 24, STATUS_MARGIN = 12 };
@@ -348,7 +343,7 @@ void status_show(struct editor *editor)
         const double frame = core_frame(core);
         snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / core->document->fps);
         const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        paint_text(&core->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
+        ui_paint_text(&core->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
         x += width + GAP;
     }
 
@@ -377,22 +372,22 @@ void status_show(struct editor *editor)
         fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, title), fminf(bar.w / 5, fmaxf(end - x, 0)));
     const bool roomy = x + title_width + needed + GAP + width <= end;
     if (roomy)
-        paint_text(&core->list, (struct rect){end - width, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim,
-                   figures);
+        ui_paint_text(&core->list, (struct rect){end - width, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim,
+                      figures);
     if (roomy || x + title_width + needed <= end) {
-        paint_text(&core->list, (struct rect){x, bar.y, title_width, bar.h}, FONT_LABEL,
-                   saved ? theme()->text_dim : theme()->text, title);
+        ui_paint_text(&core->list, (struct rect){x, bar.y, title_width, bar.h}, FONT_LABEL,
+                      saved ? theme()->text_dim : theme()->text, title);
         x += title_width + GAP;
     }
     const char *text = message->text[0] ? message->text : hint_of(editor);
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     const struct rect middle = {x, bar.y, end - (roomy && figures[0] ? width + GAP : 0) - x, bar.h};
-    if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
+    if (middle.w > 40) ui_paint_text(&core->list, middle, FONT_LABEL, color, text);
     if (!now->unkept) return; // in a narrow window the mark covers the controls
     const struct rect r = {mark, bar.y, bar.x + bar.w - STATUS_MARGIN - mark, bar.h};
     drawlist_rect(&core->list, (struct rect){r.x - STATUS_MARGIN, r.y + 1, r.w + 2 * STATUS_MARGIN, r.h - 1},
                   theme()->panel);
-    paint_text(&core->list, r, FONT_LABEL, theme()->error, unkept);
+    ui_paint_text(&core->list, r, FONT_LABEL, theme()->error, unkept);
 }
 
 // --- events

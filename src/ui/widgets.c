@@ -355,15 +355,17 @@ void ui_outline(struct ui *ui, struct rect r, float radius, bool hot)
     drawlist_rounded_line(ui->list, r, radius, 1, hot ? theme()->text_dim : theme()->control);
 }
 
-static void paint_label(struct ui *ui, struct rect r, enum font font, const char *text, uint32_t color)
+float ui_text_size(enum font font) { return font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL; }
+
+void ui_paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
 {
-    float y = ui_baseline(r, font, THEME_TEXT_NORMAL);
-    drawlist_text_fit(ui->list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
+    const float size = ui_text_size(font);
+    drawlist_text_fit(list, r.x, ui_baseline(r, font, size), r.w, font, size, color, text);
 }
 
 void ui_label(struct ui *ui, struct rect r, const char *text, uint32_t color)
 {
-    if (ui->pass == UI_PASS_DRAW) paint_label(ui, r, FONT_LABEL, text, color);
+    if (ui->pass == UI_PASS_DRAW) ui_paint_text(ui->list, r, FONT_LABEL, color, text);
 }
 
 static void paint_right(struct ui *ui, struct rect r, enum font font, float size, const char *text, uint32_t color)
@@ -414,7 +416,7 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
         const float right[6] = {x + 1, y - 4, x + 5, y, x + 1, y + 4};
         const float down[6] = {x - 1, y - 2, x + 7, y - 2, x + 3, y + 2};
         drawlist_convex(ui->list, *closed ? right : down, 3, color);
-        paint_label(ui, (struct rect){r.x + 14, r.y, r.w - 14, r.h}, FONT_LABEL_BOLD, title, color);
+        ui_paint_text(ui->list, (struct rect){r.x + 14, r.y, r.w - 14, r.h}, FONT_LABEL_BOLD, color, title);
         ui_focus_ring(ui, id, (struct rect){r.x - 4, r.y + 3, r.w + 8, r.h - 6});
     }
     return !*closed;
@@ -425,7 +427,7 @@ float ui_text_width(const char *text) { return font_width(FONT_LABEL, THEME_TEXT
 static void paint_centred(struct ui *ui, struct rect r, const char *text, uint32_t color)
 {
     float w = fminf(r.w - 4, ui_text_width(text));
-    paint_label(ui, (struct rect){roundf(r.x + (r.w - w) / 2), r.y, w, r.h}, FONT_LABEL, text, color);
+    ui_paint_text(ui->list, (struct rect){roundf(r.x + (r.w - w) / 2), r.y, w, r.h}, FONT_LABEL, color, text);
 }
 
 bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label, bool primary)
@@ -482,7 +484,7 @@ bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *tex
             left += 18;
         }
         struct rect label = {left, r.y, r.x + r.w - left, r.h};
-        paint_label(ui, label, FONT_LABEL, text, selected || hot ? theme()->text : theme()->text_dim);
+        ui_paint_text(ui->list, label, FONT_LABEL, selected || hot ? theme()->text : theme()->text_dim, text);
     }
     return pressed;
 }

@@ -182,6 +182,9 @@ void ui_list_end(struct ui *ui);
 
 /// Baseline that centres capitals in `r`.
 float ui_baseline(struct rect r, enum font font, float size);
+/// The size of a font's text in a line, where numbers are small; and such a line, cut with "…".
+float ui_text_size(enum font font);
+void ui_paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text);
 /// One centred line, cut with "…".
 void ui_label(struct ui *ui, struct rect r, const char *text, uint32_t color);
 void ui_label_right(struct ui *ui, struct rect r, const char *text, uint32_t color);

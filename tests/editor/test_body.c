@@ -332,7 +332,7 @@ PINNED_TEST(test_the_selected_mark_is_taken_first)
     assert_true(marks[1][0] - marks[0][0] > 1 && marks[1][0] - marks[0][0] < 5);
     for (int chosen = -1; chosen < 2; chosen++) {
         for (int m = 0; m < 2; m++) {
-            s->editor->core.focus.pin = (struct pin_selection){.any = chosen >= 0, .id = pin_of(s, chosen > 0)->id};
+            s->editor->core.focus.pin = chosen >= 0 ? pin_of(s, chosen > 0)->id : 0;
             session_move(s, marks[m][0], marks[m][1]);
             session_frame(s);
             assert_ptr_equal(hovered(s->editor), &thing_pin_time);

@@ -362,7 +362,7 @@ SESSION_TEST(edits_and_selections_are_found, open_crowd(s, CROWD))
     assert_walked(s);
     core_activate(core, 1);
     selection_set(selection, spline(s, 1)->knots[100].id, true);
-    core_delete(core, 0); // indices move
+    core_delete(core); // indices move
     assert_true(spline(s, 1)->knot_count < CROWD);
     assert_walked(s);
     hands(s, "key Ctrl+Z");

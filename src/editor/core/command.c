@@ -43,7 +43,7 @@ void needs_missing(const struct core *core, const char *missing[NEEDS_COUNT])
 
 bool command_runs(const struct command *command)
 {
-    return command->run || command->core || command->curves || command->inspector || command->knot ||
+    return command->run || command->act || command->core || command->curves || command->inspector || command->knot ||
            command->section || command->request;
 }
 

@@ -79,6 +79,7 @@ struct command {
     unsigned when;       ///< of enum when
     const char *gesture; ///< of the mouse or a held key; replaces the chord
     void (*run)(struct editor *editor, int argument);
+    void (*act)(struct core *core);
     void (*core)(struct core *core, int argument);
     void (*curves)(struct curves *curves, struct core *core, int argument);
     void (*inspector)(struct inspector *inspector, int argument);

@@ -31,7 +31,7 @@ void core_open(struct core *core)
     core->view.refit_stage = core->view.refit_curves = true;
     core->focus.brush.on = false;
     core->focus.bone.any = false;
-    core->focus.pin.any = false;
+    core->focus.pin = 0;
     core->focus.pick = (struct bone_pick){0};
 
     // The first spline that moves something, with its rig as the limb, else the first.
@@ -96,8 +96,7 @@ void core_edited(struct core *core, int spline)
 
 /// What belongs to an undo step beside its edits.
 struct seen {
-    unsigned active_id, limb;
-    struct pin_selection pin;
+    unsigned active_id, limb, pin;
     struct bone_selection bone;
     struct plotted plot;
     struct camera camera;

@@ -98,9 +98,8 @@ void core_set_hold(struct core *core, int holds)
     if (*why) core_stopped(core, why);
 }
 
-void core_toggle_settles(struct core *core, int unused)
+void core_toggle_settles(struct core *core)
 {
-    (void)unused;
     bool all = true, any = false;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         const struct knot *knot = knot_at(core->document, at);
@@ -133,11 +132,10 @@ static void remove_knots(struct core *core, const char *label)
     selection_clear(&core->focus.selection);
 }
 
-void core_delete(struct core *core, int unused)
+void core_delete(struct core *core)
 {
     int rig;
     const struct pin *pin = pins_selected(core, &rig);
-    (void)unused;
     if (!pin) {
         remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");
     } else if (core_step(core, "Delete pin", 0) && edit_pin_remove(core->document, rig, pin->id, &core->step.error)) {
@@ -327,10 +325,9 @@ static struct knot mirrored(const struct core *core, const void *how, const stru
     return turned;
 }
 
-void core_mirror_knots(struct core *core, int unused)
+void core_mirror_knots(struct core *core)
 {
     char why[STOPPED_SIZE] = "";
-    (void)unused;
     if (collect(core) == 0 || !core_step(core, "Mirror knots", 0)) return;
     originals_put(core, mirrored, NULL, why);
     core_edited(core, -1);
@@ -518,11 +515,10 @@ void core_simplify_advance(struct core *core)
                      of->desc.frequency.value, of->desc.damping.value);
 }
 
-void core_smooth_knots(struct core *core, int unused)
+void core_smooth_knots(struct core *core)
 {
     const struct selection *selection = &core->focus.selection;
     int moved = 0;
-    (void)unused;
     if (collect(core) == 0 || !evaluation_is_of(core->evaluation, core->document) ||
         !core_step(core, "Smooth knots", 0))
         return;

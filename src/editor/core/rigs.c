@@ -532,12 +532,11 @@ bool characters_blank_paint(struct core *core, const struct figure *figure)
                           &core->step.error);
 }
 
-void characters_clean_paint(struct core *core, int unused)
+void characters_clean_paint(struct core *core)
 {
     int coordinate;
     const struct model_rig *rig = characters_selected(core);
     const struct figure *figure = characters_figure(core, &coordinate);
-    (void)unused;
     if (!figure || !rig->painted || paint_is_plain(rig->painted)) {
         core_message(core, false, "There is no paint to remove.");
         return;
@@ -563,8 +562,7 @@ const struct pin *pins_selected(const struct core *core, int *rig)
 {
     struct pin_place place = PINS_START;
     const struct pin *pin = NULL;
-    while (core->focus.pin.any && (pin = pins_next(core->document, &place)) && pin->id != core->focus.pin.id)
-        continue;
+    while (core->focus.pin && (pin = pins_next(core->document, &place)) && pin->id != core->focus.pin) continue;
     *rig = place.rig;
     return pin;
 }
@@ -585,7 +583,7 @@ uint32_t pins_color(const struct document *document, int rig)
 static void pins_select(struct core *core, unsigned id)
 {
     selection_clear(&core->focus.selection);
-    core->focus.pin = (struct pin_selection){.any = true, .id = id};
+    core->focus.pin = id;
 }
 
 void pins_visit(struct core *core, const struct pin *pin)
@@ -594,7 +592,7 @@ void pins_visit(struct core *core, const struct pin *pin)
     pins_select(core, pin->id);
 }
 
-void pins_clear(struct core *core) { core->focus.pin.any = false; }
+void pins_clear(struct core *core) { core->focus.pin = 0; }
 
 double pins_frame_here(const struct core *core, int rig)
 {

@@ -76,7 +76,7 @@ void characters_set_brush(struct core *core, bool on);
 /// Gives the selected character blank paint of the figure's size. Edits.
 bool characters_blank_paint(struct core *core, const struct figure *figure);
 /// Removes the selected character's paint in one undo step.
-void characters_clean_paint(struct core *core, int unused);
+void characters_clean_paint(struct core *core);
 
 // --- pins: at most one is selected, among all rigs
 

@@ -414,10 +414,9 @@ void core_nudge_parameter(struct core *core, int direction)
         core_set_felt(core, core_limb(core), parameter, param.value, false, &core->step.error);
 }
 
-void core_cycle_mode(struct core *core, int unused)
+void core_cycle_mode(struct core *core)
 {
     const struct spline *spline = core_active_spline(core);
-    (void)unused;
     if (spline && core_step(core, parameter_rows[PARAMETER_MODE].undo, 0))
         core_set_parameter(core, core->focus.active, PARAMETER_MODE, (spline_mode(spline) + 1) % (WIGGLY_CUBIC + 1));
 }
@@ -434,15 +433,10 @@ void core_pose_to_pose(struct core *core, int limb)
     core_edited(core, -1);
 }
 
-void core_toggle_pose_to_pose(struct core *core, int unused)
-{
-    (void)unused;
-    core_pose_to_pose(core, core_limb(core));
-}
+void core_toggle_pose_to_pose(struct core *core) { core_pose_to_pose(core, core_limb(core)); }
 
-void core_find_frequency(struct core *core, int unused)
+void core_find_frequency(struct core *core)
 {
-    (void)unused;
     const struct spline *spline = core_active_spline(core);
     if (!spline || !evaluation_is_of(core->evaluation, core->document)) return;
     const struct param *p = spline->parameter;
@@ -499,10 +493,9 @@ int core_open_curves(const struct core *core)
     return count;
 }
 
-void core_close_curves(struct core *core, int unused)
+void core_close_curves(struct core *core)
 {
     struct document *document = core->document;
-    (void)unused;
     int count = 0;
     if (!core_step(core, "Close all curves", 0)) return;
     for (int s = 0; s < document->spline_count; s++) {

@@ -39,10 +39,10 @@ void spline_list_range(struct core *core, int first, int last);
 /// How many curves do not end as they start, so that looping playback jumps.
 int core_open_curves(const struct core *core);
 /// Closes all curves: each ends as it starts. A knot on the last frame goes, because that frame then repeats the first.
-void core_close_curves(struct core *core, int unused);
+void core_close_curves(struct core *core);
 
 /// Sets the frequency and damping that explain the knots best, or second best if those are set already.
-void core_find_frequency(struct core *core, int unused);
+void core_find_frequency(struct core *core);
 
 enum { LIMB_NONE = -1, LIMB_ROWS = -2 };
 /// What Feel acts on, whichever was chosen last: LIMB_ROWS, several rows of the list; a rig, while the active spline bends or drives it; or LIMB_NONE,
@@ -69,11 +69,11 @@ double core_fresh_limit(const struct spline *spline, enum parameter parameter);
 /// Steps the frequency while F is held, with Z the damping, with L the lag.
 void core_nudge_parameter(struct core *core, int direction);
 /// Goes to the next kind of spline, cyclically.
-void core_cycle_mode(struct core *core, int unused);
+void core_cycle_mode(struct core *core);
 
 /// Lets the motion of a limb settle at all of its knots, which then hold values alone; or if the active spline does, at none. The second: of the
 /// limb that Feel acts on.
 void core_pose_to_pose(struct core *core, int limb);
-void core_toggle_pose_to_pose(struct core *core, int unused);
+void core_toggle_pose_to_pose(struct core *core);
 
 #endif

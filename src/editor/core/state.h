@@ -204,12 +204,6 @@ struct bone_selection {
     int node;
 };
 
-/// The selected pin, by id, so that it survives undo.
-struct pin_selection {
-    bool any;
-    unsigned id;
-};
-
 /// What the next click on a bone does.
 enum bone_use { BONE_SELECTED, BONE_FOLLOWED, BONE_FIRST, BONE_LAST };
 
@@ -293,7 +287,7 @@ struct focus {
     unsigned active_id;         ///< its id, to find it when the list changes
     unsigned limb;              ///< id of the rig chosen last, see core_limb(); 0: a spline was
     struct selection selection; ///< of knots, and of splines in the list
-    struct pin_selection pin;
+    unsigned pin;               ///< id of the selected one, so that it survives undo; 0: none
     struct bone_selection bone;
     struct bone_pick pick; ///< until the next edit
     struct character_view characters;

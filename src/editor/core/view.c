@@ -153,9 +153,8 @@ static void range_positions(const struct core *core, double range[2])
     for (int end = 0; end < 2; end++) range[end] = core_position(core->document, range[end]);
 }
 
-void playback_toggle(struct core *core, int unused)
+void playback_toggle(struct core *core)
 {
-    (void)unused;
     struct playback *playback = &core->view.playback;
     double range[2];
     if (playback->playing) {
@@ -251,11 +250,7 @@ void core_set_look(struct core *core, enum look look)
     core_message(core, false, "%s", texts[look]);
 }
 
-void core_turn_look(struct core *core, int unused)
-{
-    (void)unused;
-    core_set_look(core, (core->view.look + 1) % (LOOK_CUBIC + 1));
-}
+void core_turn_look(struct core *core) { core_set_look(core, (core->view.look + 1) % (LOOK_CUBIC + 1)); }
 
 // --- the scene as it was kept (Shift+K), to compare with (hold K)
 

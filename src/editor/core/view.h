@@ -20,7 +20,7 @@ enum divider core_divider_at(const struct core *core, float x, float y);
 void core_divider_move(struct core *core, enum divider divider, float x, float y);
 
 /// Plays, or stops at the nearest frame.
-void playback_toggle(struct core *core, int unused);
+void playback_toggle(struct core *core);
 /// Advances by `dt` seconds of real time. Counts scene frames that were skipped.
 void playback_advance(struct core *core, double dt);
 /// Stops at a frame.
@@ -45,7 +45,7 @@ void playback_mark(struct core *core, int end);
 void core_flip(struct core *core, int which);
 /// Chooses the look and shows a message.
 void core_set_look(struct core *core, enum look look);
-void core_turn_look(struct core *core, int unused);
+void core_turn_look(struct core *core);
 /// The frame at the playhead, fractional.
 double core_frame(const struct core *core);
 /// A frame as a fractional sample.

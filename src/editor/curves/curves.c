@@ -457,7 +457,7 @@ static bool find_seam(void *room, const struct core *core, const struct target *
 static void press_seam(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     (void)room, (void)hover, (void)event;
-    core_close_curves(core, 0);
+    core_close_curves(core);
 }
 
 const struct thing thing_seam = {

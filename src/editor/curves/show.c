@@ -427,10 +427,10 @@ struct hover ruler_pins_hover(const struct core *core, float x, float y)
         float xy[2];
         place_pin(core, pin, xy);
         float distance = fabsf(x - xy[0]);
-        if (distance < REACH && core->focus.pin.any && core->focus.pin.id == pin->id) distance = -1;
+        if (distance < REACH && core->focus.pin == pin->id) distance = -1;
         if (distance >= best) continue;
         best = distance;
-        hover = (struct hover){.thing = &thing_pin_time, .rig = at.rig, .joint = pin->point, .pin = pin->id};
+        hover = (struct hover){.thing = &thing_pin_time, .rig = at.rig, .pin = pin->id};
     }
     return hover;
 }
@@ -813,7 +813,7 @@ void curves_show(struct curves *curves, struct core *core)
     struct pin_place at = PINS_START;
     for (const struct pin *pin; (pin = pins_next(document, &at));) {
         const uint32_t color = pins_color(document, at.rig);
-        const bool selected = core->focus.pin.any && core->focus.pin.id == pin->id;
+        const bool selected = core->focus.pin == pin->id;
         const bool hot = core->input.hover.thing == &thing_pin_time && core->input.hover.pin == pin->id;
         const float radius = RADIUS + (selected || hot ? 1 : 0);
         float xy[2];

@@ -262,12 +262,6 @@ bool lookup_event(struct dialogs *dialogs, const struct event *event)
     return true;
 }
 
-static void paint_line(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
-{
-    float y = ui_baseline(r, font, THEME_TEXT_NORMAL);
-    drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
-}
-
 void lookup_show(const struct dialogs *dialogs)
 {
     struct core *core = dialogs->core;
@@ -292,8 +286,8 @@ void lookup_show(const struct dialogs *dialogs)
             fminf(field.x + 10 + font_width(FONT_LABEL, THEME_TEXT_NORMAL, typed), field.x + field.w - 10);
         drawlist_rounded(drawn, field, 4, theme()->raised);
         drawlist_rounded_line(drawn, field, 4, 1.5f, theme()->accent);
-        paint_line(drawn, (struct rect){field.x + (*typed ? 10 : 14), field.y, field.w - 20, field.h}, FONT_LABEL,
-                   *typed ? theme()->text : theme()->text_dim, text);
+        ui_paint_text(drawn, (struct rect){field.x + (*typed ? 10 : 14), field.y, field.w - 20, field.h}, FONT_LABEL,
+                      *typed ? theme()->text : theme()->text_dim, text);
         drawlist_rect(drawn, (struct rect){roundf(end), field.y + 8, 1, field.h - 16}, theme()->accent);
     }
     const struct rect body = page.body;
@@ -302,7 +296,7 @@ void lookup_show(const struct dialogs *dialogs)
     for (int i = first; i < found.count && i < last; i++, row.y += PALETTE_ROW) {
         const char *missing = found.missing[i];
         if (!found.list[i]) {
-            paint_line(drawn, row, FONT_LABEL_BOLD, theme()->accent, missing);
+            ui_paint_text(drawn, row, FONT_LABEL_BOLD, theme()->accent, missing);
             continue;
         }
         const char *name = found.list[i]->name;
@@ -316,17 +310,17 @@ void lookup_show(const struct dialogs *dialogs)
         }
         const float right = ceilf(ui_text_width(keys)), from = row.x + ceilf(ui_text_width(name)) + PALETTE_GAP;
         const float till = row.x + row.w - (right > 0 ? right + PALETTE_GAP : 0);
-        paint_line(drawn, row, FONT_LABEL, missing ? theme()->text_dim : theme()->text, name);
-        paint_line(drawn, (struct rect){row.x + row.w - right, row.y, right + 1, row.h}, FONT_LABEL,
-                   theme()->text_dim, keys);
+        ui_paint_text(drawn, row, FONT_LABEL, missing ? theme()->text_dim : theme()->text, name);
+        ui_paint_text(drawn, (struct rect){row.x + row.w - right, row.y, right + 1, row.h}, FONT_LABEL,
+                      theme()->text_dim, keys);
         if (!missing || till - from <= 40) continue;
         const float width = fminf(ceilf(ui_text_width(missing)), till - from);
-        paint_line(drawn, (struct rect){till - width, row.y, width + 1, row.h}, FONT_LABEL, theme()->text_dim,
-                   missing);
+        ui_paint_text(drawn, (struct rect){till - width, row.y, width + 1, row.h}, FONT_LABEL, theme()->text_dim,
+                      missing);
     }
     if (found.count == 0)
-        paint_line(drawn, row, FONT_LABEL, theme()->text_dim,
-                   is_menu ? "Nothing can be done here now." : "No command matches. Esc closes.");
+        ui_paint_text(drawn, row, FONT_LABEL, theme()->text_dim,
+                      is_menu ? "Nothing can be done here now." : "No command matches. Esc closes.");
     ui_list_bar(&list, drawn, (struct rect){body.x + body.w - 4, body.y, 4, body.h}, 0);
 }
 

@@ -840,7 +840,7 @@ static void build_holds(struct inspector *in)
          .hint = "Let the motion stay here: it overshoots the value and swings about it (Alt+P)", .lit = settles}};
     const int pressed = build_buttons(in, rows, 4);
     if (pressed == 3) {
-        core_toggle_settles(in->core, 0);
+        core_toggle_settles(in->core);
     } else if (pressed >= 0 && pressed != lit) {
         core_set_hold(in->core, pressed);
     }
@@ -996,8 +996,8 @@ void inspector_pins(struct inspector *in)
 
     struct pin_place place = PINS_START;
     int selected = 0, row = 0, owner;
-    for (const struct pin *pin; core->focus.pin.any && (pin = pins_next(core->document, &place)); row++) {
-        if (pin->id == core->focus.pin.id) selected = row;
+    for (const struct pin *pin; core->focus.pin && (pin = pins_next(core->document, &place)); row++) {
+        if (pin->id == core->focus.pin) selected = row;
     }
     const int first = inspector_first_row(count, selected, MAX_PINS);
     bool removed = false;
@@ -1017,7 +1017,7 @@ void inspector_pins(struct inspector *in)
         const double millimetres = w ? 1e3 * sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) : NAN;
         if (isfinite(millimetres)) snprintf(left, sizeof left, "%.1f mm", millimetres);
         r.w -= r.h + 4;
-        const bool pressed = ui_list_row(ui, r, name, "", 0, core->focus.pin.any && core->focus.pin.id == pin->id);
+        const bool pressed = ui_list_row(ui, r, name, "", 0, core->focus.pin == pin->id);
         ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 66, r.h}, text, theme()->text);
         ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
         ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");

@@ -716,7 +716,7 @@ static void build_brush(struct inspector *in)
     }
     if (brush->on) inspector_numbers(in, brush_rows, sizeof brush_rows / sizeof brush_rows[0], &home);
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
-    if (inspector_button(in, ui_row(&in->ui, UI_ROW), &clean)) characters_clean_paint(in->core, 0);
+    if (inspector_button(in, ui_row(&in->ui, UI_ROW), &clean)) characters_clean_paint(in->core);
 }
 
 /// What is soft of the selected character: its channels, floor, phases and paint.

@@ -321,7 +321,7 @@ void inspector_feel(struct inspector *in)
     static const struct row find = {
         NAMED("frequency.find", "Find the frequency"),
         .hint = "Frequency and damping that explain the knots best (Shift+F); again: the runner-up"};
-    if (inspector_button(in, r, &find)) core_find_frequency(in->core, 0);
+    if (inspector_button(in, r, &find)) core_find_frequency(in->core);
 }
 
 enum { MAX_BONES = 1024 }; ///< in a list

@@ -617,7 +617,7 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
         float xy[2];
         if (!project_place(stage, core, pin->to, xy)) continue;
         float distance = maths_hypotf(xy[0] - x, xy[1] - y);
-        if (distance < reach && core->focus.pin.any && core->focus.pin.id == pin->id) distance = 0;
+        if (distance < reach && core->focus.pin == pin->id) distance = 0;
         if (distance >= best) continue;
         best = distance;
         hover = (struct hover){
@@ -800,7 +800,7 @@ void pins_show(struct stage *stage, struct core *core)
         // The target, and a line to the point at the pin's frame if known.
         const struct pin_left *left = evaluation_pin(core->evaluation, document, place.rig, place.at);
         const bool here = document_sample(document, pin->frame) == document_sample(document, core_frame(core));
-        const bool selected = core->focus.pin.any && core->focus.pin.id == pin->id;
+        const bool selected = core->focus.pin == pin->id;
         const bool hot = core->input.hover.thing == &thing_pin && core->input.hover.pin == pin->id;
         const float radius = here || selected || hot ? HERE : ELSEWHERE;
         const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
