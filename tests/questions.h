@@ -5,8 +5,6 @@
 #include "near.h"
 
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
-#include "editor/core/view.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/state.h"
 #include "editor/dialogs/dialogs.h"

@@ -1,9 +1,5 @@
 /// The table of all commands, for keys, F1 and the palette; and the keyboard. docs/keys.md lists them.
 #include "editor/core/core.h"
-#include "editor/core/knots.h"
-#include "editor/core/rigs.h"
-#include "editor/core/splines.h"
-#include "editor/core/view.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/inspector/inspector.h"

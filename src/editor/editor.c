@@ -1,10 +1,6 @@
 /// The editor's public functions: the status line, events, one frame, and names for places on the screen.
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/drag.h"
-#include "editor/core/knots.h"
-#include "editor/core/rigs.h"
-#include "editor/core/view.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/inspector/inspector.h"

@@ -1,8 +1,6 @@
 /// Pulls of a limb on the stage: they ask for no more than they need, take a near knot along, and leave what follows alone.
 #include "blind.h"
 #include "editor/core/core.h"
-#include "editor/core/drag.h"
-#include "editor/core/view.h"
 #include "shown.h"
 
 enum { STEPS = 2, SETTLE = 7 };

@@ -1,6 +1,6 @@
 /// The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler; what it draws, where its view goes, and splines of
 /// thousands of knots.
-#include "editor/core/knots.h"
+#include "editor/core/core.h"
 #include "five_knots.h"
 #include "hands.h"
 

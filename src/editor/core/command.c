@@ -1,7 +1,6 @@
 /// The needs of commands, and the names of their keys.
 #include "editor/core/command.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
 #include <stdio.h>
 
 void needs_missing(const struct core *core, const char *missing[NEEDS_COUNT])

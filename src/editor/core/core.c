@@ -4,7 +4,6 @@
 #include "base/hash.h"
 #include "base/names.h"
 #include "base/need.h"
-#include "editor/core/view.h"
 #include "maths/maths.h"
 #include "scene/warnings.h"
 #include "ui/theme.h"

@@ -1,7 +1,5 @@
 /// A drag of the pointer: distance, undo step, and calls to its owner.
-#include "editor/core/drag.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
 #include "maths/maths.h"
 
 static const float CLICK_REACH = 3; ///< pixels a click may move

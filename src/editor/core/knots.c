@@ -1,9 +1,6 @@
 /// Edits of knots: inserting, deleting, copying, what they hold, their slopes; and selecting them.
-#include "editor/core/knots.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
-#include "editor/core/view.h"
 #include "scene/load.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,8 @@
 /// Edits of rigs: adding and removing them, bones and chains of characters, the selected soft character, pins.
-#include "editor/core/rigs.h"
 #include "base/hash.h"
 #include "base/names.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/splines.h"
-#include "editor/core/view.h"
 #include "rig/import.h"
 #include "rig/models.h"
 #include "scene/pins.h"

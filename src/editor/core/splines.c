@@ -1,9 +1,6 @@
 /// Edits of splines: their list, timing and parameters, and the frequency that explains their knots.
-#include "editor/core/splines.h"
 #include "base/names.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
-#include "editor/core/view.h"
 #include "maths/maths.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,4 @@
 /// What is shown: where the panels are, what time it is, and the switches of how the scene looks.
-#include "editor/core/view.h"
 #include "editor/core/core.h"
 #include "ui/theme.h"
 #include <math.h>

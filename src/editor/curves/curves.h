@@ -2,7 +2,7 @@
 #ifndef EDITOR_CURVES_CURVES_H
 #define EDITOR_CURVES_CURVES_H
 
-#include "editor/core/drag.h"
+#include "editor/core/core.h"
 
 struct curves;
 

@@ -1,8 +1,6 @@
 /// The overlays without questions: the commands with their keys (F1), the palette that runs them (F3), and the card for new users.
 #include "editor/core/command.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
-#include "editor/core/view.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"

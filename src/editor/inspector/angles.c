@@ -2,9 +2,6 @@
 /// draggable points, or one angle per joint, drawn by dragging.
 #include "base/error.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
-#include "editor/core/splines.h"
-#include "editor/core/view.h"
 #include "editor/inspector/state.h"
 #include "maths/maths.h"
 #include <math.h>

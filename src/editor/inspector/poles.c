@@ -1,7 +1,6 @@
 /// The poles of the active spline: the filter's frequency response, the settling time, and the picture for the paper's Figure 2.
 #include "editor/inspector/poles.h"
 #include "editor/core/core.h"
-#include "editor/core/view.h"
 #include "editor/inspector/state.h"
 #include "maths/maths.h"
 #include "ui/font.h"

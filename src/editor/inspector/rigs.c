@@ -1,11 +1,8 @@
 /// The sections on rigs: their list and the menu of additions, tails and chains, characters.
-#include "editor/core/rigs.h"
 #include "base/file.h"
 #include "base/names.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/splines.h"
-#include "editor/core/view.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/state.h"
 #include "rig/models.h"

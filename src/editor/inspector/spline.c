@@ -1,9 +1,6 @@
 /// The sections on the active spline: its feel, its parameters and what they follow.
 #include "base/names.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
-#include "editor/core/splines.h"
-#include "editor/core/view.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/state.h"
 #include "scene/text.h"

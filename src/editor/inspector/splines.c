@@ -1,5 +1,4 @@
 /// The splines' list, left of the curves. It is the inspector's, because its widgets share focus, typed line and popup with the others.
-#include "editor/core/splines.h"
 #include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspector.h"

@@ -7,8 +7,6 @@
 #include "base/names.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/drag.h"
-#include "editor/core/view.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"

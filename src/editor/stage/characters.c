@@ -4,8 +4,6 @@
 #include "base/hash.h"
 #include "base/names.h"
 #include "editor/core/core.h"
-#include "editor/core/drag.h"
-#include "editor/core/rigs.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"

@@ -3,7 +3,6 @@
 #include "base/names.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"

@@ -2,7 +2,7 @@
 #ifndef EDITOR_STAGE_STAGE_H
 #define EDITOR_STAGE_STAGE_H
 
-#include "editor/core/drag.h"
+#include "editor/core/core.h"
 
 struct stage;
 
