@@ -48,9 +48,9 @@ static void run_select_none(struct editor *e, int argument)
     } else if (e->core.cleaning.of) {
         core_simplify(&e->core, false);
     } else if (e->core.focus.bone.any) {
-        bones_clear(&e->core);
+        e->core.focus.bone.any = false;
     } else if (pins_any_selected(&e->core)) {
-        pins_clear(&e->core);
+        e->core.focus.pin = 0;
     } else {
         selection_clear(&e->core.focus.selection);
     }
@@ -381,8 +381,8 @@ const struct command commands[] = {
          "Examples", FILE, 0, NOTHING, 0, .run = run_show, SHOW_EXAMPLES, {0}),
     COMMAND("Quit", FILE, 0, NO_PAGE, 0, .request = REQUEST_QUIT, 0, {'Q', CTRL}),
 
-    COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | FIRST, .run = run_show, SHOW_HELP, {KEY_F1, 0}),
-    COMMAND("Any command, by typing", WINDOW, 0, NOTHING, FIRST | ANY_TIME, .run = run_show, SHOW_PALETTE,
+    COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | EARLY, .run = run_show, SHOW_HELP, {KEY_F1, 0}),
+    COMMAND("Any command, by typing", WINDOW, 0, NOTHING, EARLY | ANY_TIME, .run = run_show, SHOW_PALETTE,
             {KEY_F3, 0}),
     GESTURE("Right-click", "A menu of what can be done there", WINDOW, 0),
     COMMAND("Resize the stage", WINDOW, 0, NOTHING, 0, .run = run_panel, 0, {KEY_F6, 0}),
@@ -531,7 +531,7 @@ bool keys_first(struct editor *editor, const struct event *event)
 {
     if (event->kind != EVENT_KEY || event->action != ACTION_PRESS) return false;
     const struct command *command = keys_command(event->key, mods_of(event));
-    if (!command || !(command->when & FIRST)) return false;
+    if (!command || !(command->when & EARLY)) return false;
     if (!inspector_is_dragging(editor->inspector)) command_run(editor, command);
     return true;
 }

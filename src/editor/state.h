@@ -2,7 +2,7 @@
 #ifndef EDITOR_STATE_H
 #define EDITOR_STATE_H
 
-#include "editor/core/command.h"
+#include "editor/core/core.h"
 #include "editor/editor.h"
 #include "ui/widgets.h"
 

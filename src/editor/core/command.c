@@ -1,5 +1,4 @@
 /// The needs of commands, and the names of their keys.
-#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include <stdio.h>
 

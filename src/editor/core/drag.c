@@ -90,7 +90,7 @@ void drag_end(struct core *core, bool keep)
         if (keep) core_keep_following(core);
         if (!keep) drag_restart(core);
         if (!keep) selection_drop_from(&core->focus.selection, core->document->next_id);
-        if (!keep && core->focus.pin >= core->document->next_id) pins_clear(core);
+        if (!keep && core->focus.pin >= core->document->next_id) core->focus.pin = 0;
         core_end(core);
         core_settle(core); // dragging a body may have added the first splines
     }

@@ -8,7 +8,7 @@
 
 void core_select_only(struct core *core, unsigned id)
 {
-    pins_clear(core);
+    core->focus.pin = 0;
     selection_clear(&core->focus.selection);
     selection_set(&core->focus.selection, id, true);
 }
@@ -136,14 +136,14 @@ void core_delete(struct core *core)
     if (!pin) {
         remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");
     } else if (core_step(core, "Delete pin", 0) && edit_pin_remove(core->document, rig, pin->id, &core->step.error)) {
-        pins_clear(core);
+        core->focus.pin = 0;
     }
 }
 
 void core_select_all(struct core *core, int all_splines)
 {
     const struct document *document = core->document;
-    pins_clear(core);
+    core->focus.pin = 0;
     selection_clear(&core->focus.selection);
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
@@ -344,7 +344,7 @@ static bool insert_copy(struct core *core, int spline, const struct knot *knot, 
 static void select_from(struct core *core, unsigned first_id)
 {
     selection_clear(&core->focus.selection);
-    pins_clear(core);
+    core->focus.pin = 0;
     for (unsigned id = first_id; id < core->document->next_id; id++) selection_set(&core->focus.selection, id, true);
     selected_activate(core);
     core_edited(core, -1);

@@ -228,8 +228,6 @@ const char *bones_title(const struct document *document, int model, const char *
     return title;
 }
 
-void bones_clear(struct core *core) { core->focus.bone.any = false; }
-
 int bones_joints(const struct core *core, int rig)
 {
     const struct rig *bent = core->document->rigs[rig];
@@ -588,8 +586,6 @@ void pins_visit(struct core *core, const struct pin *pin)
     playback_seek(core, pin->frame);
     pins_select(core, pin->id);
 }
-
-void pins_clear(struct core *core) { core->focus.pin = 0; }
 
 double pins_frame_here(const struct core *core, int rig)
 {

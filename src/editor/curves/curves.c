@@ -1,7 +1,6 @@
 /// The curves panel: what part is visible, mouse and wheel, and warnings with their fixes.
 #include "base/hash.h"
 #include "base/need.h"
-#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/curves/state.h"
 #include "maths/maths.h"
@@ -136,7 +135,7 @@ static void show_values(struct plotted *view, const struct plotted *part)
 /// Sets the view within limits, and stops following edits.
 static void view_set(struct curves *curves, struct core *core, struct plotted view)
 {
-    curves->following = (struct following){0};
+    curves->moves = false;
     core->step.edited = (struct edited){0};
     core->view.plot = view;
     keep_sane(core);
@@ -320,7 +319,6 @@ static bool seam_is_played(const struct core *core)
 
 void follow_edits(struct curves *curves, struct core *core)
 {
-    struct following *following = &curves->following;
     const struct edited *edited = &core->step.edited;
     const struct document *document = core->document;
     const bool has_changed = curves->followed != document->edits;
@@ -344,7 +342,7 @@ void follow_edits(struct curves *curves, struct core *core)
     }
     for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
     const bool is_measured = core->input.drag.room == curves; // by a drag, and stays
-    struct plotted goal = following->moves && !is_measured ? following->goal : core->view.plot;
+    struct plotted goal = curves->moves && !is_measured ? curves->goal : core->view.plot;
     const float x = core->input.pointer_x, y = core->input.pointer_y;
     const bool points = rect_contains(core->view.layout.plot, x, y);
     const double frame = points ? curves_frame(core, x) : NAN, value = points ? curves_value(core, y) : NAN;
@@ -358,19 +356,18 @@ void follow_edits(struct curves *curves, struct core *core)
     if (core->focus.active >= 0) include_seen(curves, core, core->focus.active, 0, INFINITY, &part);
     if (has_changed && (part.value1 < goal.value0 || part.value0 > goal.value1) && part.value0 <= part.value1)
         widen(&goal.value0, &goal.value1, (double[2]){part.value0, part.value1}, INFINITY, value);
-    const bool moves = goal.frame0 != core->view.plot.frame0 || goal.frame1 != core->view.plot.frame1 ||
-                       goal.value0 != core->view.plot.value0 || goal.value1 != core->view.plot.value1;
-    *following = (struct following){.moves = moves, .goal = goal};
+    curves->moves = goal.frame0 != core->view.plot.frame0 || goal.frame1 != core->view.plot.frame1 ||
+                    goal.value0 != core->view.plot.value0 || goal.value1 != core->view.plot.value1;
+    curves->goal = goal;
     core->step.edited = (struct edited){0};
 }
 
 void curves_advance(struct curves *curves, struct core *core, double dt)
 {
     keep_ghost(curves, core);
-    struct following *following = &curves->following;
-    if (!following->moves || core->input.drag.room == curves) return;
+    if (!curves->moves || core->input.drag.room == curves) return;
     const double share = 1 - maths_exp(-RATE * fmax(dt, 0));
-    const struct plotted *view = &core->view.plot, *goal = &following->goal;
+    const struct plotted *view = &core->view.plot, *goal = &curves->goal;
     const double left[4] = {goal->frame0 - view->frame0, goal->frame1 - view->frame1, goal->value0 - view->value0,
                             goal->value1 - view->value1};
     const double frames = fmax(fabs(left[0]), fabs(left[1])) * curves_pixels_per_frame(core);
@@ -380,7 +377,7 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
                             : (struct plotted){view->frame0 + share * left[0], view->frame1 + share * left[1],
                                                view->value0 + share * left[2], view->value1 + share * left[3]};
     keep_sane(core);
-    following->moves = !there;
+    curves->moves = !there;
 }
 
 // The mouse.
@@ -397,11 +394,11 @@ void curves_open(struct curves *curves)
 {
     curves->cache.key = 0;
     curves->cache.range_count = 0;
-    curves->following = (struct following){0};
+    curves->moves = false;
     curves->warnings = (struct warnings){0};
 }
 
-bool curves_wants_frames(const struct curves *curves) { return curves->following.moves; }
+bool curves_wants_frames(const struct curves *curves) { return curves->moves; }
 
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9, LIMIT_REACH = 5; ///< pixels
 static const double ZOOM_STEP = 0.15; ///< exponent of e per notch of the wheel
@@ -707,7 +704,7 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
         core->input.hover = hover;
         if (hover.thing == &thing_knot) {
             core_turn_to(core, hover.spline);
-            pins_clear(core);
+            core->focus.pin = 0;
             if (!selection_has(&core->focus.selection, hover.knot)) core_select_only(core, hover.knot);
         }
         if (hover.thing == &thing_pin_time) {
@@ -717,7 +714,7 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
         if (hover.thing == &thing_curve) core_choose(core, hover.spline);
     }
     if (event->button == BUTTON_RIGHT || hover.thing == &list_row) return;
-    if (hover.thing != &thing_pin_time && hover.thing != &thing_ruler) pins_clear(core);
+    if (hover.thing != &thing_pin_time && hover.thing != &thing_ruler) core->focus.pin = 0;
     if (hover.thing) {
         hover.thing->press(curves, core, &hover, event);
     } else if (rect_contains(core->view.layout.plot, event->x, event->y)) {

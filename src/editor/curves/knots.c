@@ -1,5 +1,4 @@
 /// Edits knots on the curves and the dope sheet: drags of knots and slopes, scaling, and the sheet's rows.
-#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/curves/state.h"
 #include "maths/maths.h"

@@ -1,6 +1,5 @@
 /// Draws the curves panel: polylines of the solved splines, grid, ruler, knots, slope handles, playhead.
 #include "base/hash.h"
-#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/curves/state.h"
 #include "maths/maths.h"

@@ -28,12 +28,6 @@ struct dope_sheet {
     unsigned active; ///< id of the spline last scrolled into view
 };
 
-/// The view's animation towards an edit.
-struct following {
-    bool moves;
-    struct plotted goal;
-};
-
 enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 
 /// A drag of knots, slopes, a limit, a pin's mark or a box.
@@ -102,7 +96,8 @@ struct ghost {
 };
 
 struct curves {
-    struct following following;
+    bool moves; ///< the view, towards the goal that an edit set
+    struct plotted goal;
     uint64_t followed; ///< edits of the document when last looked at
     int open;          ///< curves that do not end as they start, counted while that can be seen
     uint64_t open_of;  ///< edits of the document as they were counted

@@ -76,11 +76,6 @@ bool dialogs_ask(struct dialogs *dialogs)
     ((struct question){.answers = (list), .count = sizeof(list) / sizeof(list)[0], .of = dialogs, .answered = (what)})
 
 enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
-static const struct answer unsaved_answers[] = {
-    [UNSAVED_SAVE] = {"dialog.save", "Save", 'S'},
-    [UNSAVED_DISCARD] = {"dialog.discard", "Discard", 'D'},
-    [UNSAVED_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
-};
 
 static void answer_unsaved(void *of, int answer)
 {
@@ -98,13 +93,15 @@ static void answer_unsaved(void *of, int answer)
 
 void dialogs_leave(struct dialogs *dialogs, const struct request *after)
 {
+    static const struct answer answers[] = {
+        {"dialog.save", "Save", 'S'}, {"dialog.discard", "Discard", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
     struct core *core = dialogs->core;
     struct question *question = &dialogs->dialog.question;
     if (history_is_saved(core->history)) {
         dialog_go_on(dialogs, after);
         return;
     }
-    *question = QUESTION(unsaved_answers, answer_unsaved);
+    *question = QUESTION(answers, answer_unsaved);
     snprintf(question->title, sizeof question->title, "%s has unsaved changes", core_title(core));
     snprintf(question->note, sizeof question->note,
              "Save them, or they will be lost. S saves, D discards, Esc cancels.");
@@ -113,12 +110,6 @@ void dialogs_leave(struct dialogs *dialogs, const struct request *after)
 }
 
 enum changed_answer { CHANGED_MINE, CHANGED_THEIRS, CHANGED_SAVE_AS, CHANGED_CANCEL };
-static const struct answer changed_answers[] = {
-    [CHANGED_MINE] = {"dialog.mine", "Keep mine", 'K'},
-    [CHANGED_THEIRS] = {"dialog.theirs", "Take theirs", 'T'},
-    [CHANGED_SAVE_AS] = {"dialog.other", "Save as", 'S'},
-    [CHANGED_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
-};
 
 static void answer_changed(void *of, int answer)
 {
@@ -133,10 +124,14 @@ static void answer_changed(void *of, int answer)
 
 bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving)
 {
+    static const struct answer answers[] = {{"dialog.mine", "Keep mine", 'K'},
+                                            {"dialog.theirs", "Take theirs", 'T'},
+                                            {"dialog.other", "Save as", 'S'},
+                                            {"dialog.cancel", "Cancel", 'C'}};
     struct dialog *dialog = &dialogs->dialog;
     struct question *question = &dialog->question;
     if (!saving && (dialogs->core->input.drag.owner || dialogs_cover(dialogs))) return false;
-    *question = QUESTION(changed_answers, answer_changed);
+    *question = QUESTION(answers, answer_changed);
     snprintf(question->title, sizeof question->title, "%.255s has changed on the disk", name);
     snprintf(question->note, sizeof question->note,
              "Keep mine replaces that file %s. Take theirs opens it; undo brings yours back. Save as keeps both.",
@@ -148,11 +143,6 @@ bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving)
 }
 
 enum recover_answer { RECOVER_RECOVER, RECOVER_DISCARD, RECOVER_LATER };
-static const struct answer recover_answers[] = {
-    [RECOVER_RECOVER] = {"dialog.recover", "Recover", 'R'},
-    [RECOVER_DISCARD] = {"dialog.discard", "Discard", 'D'},
-    [RECOVER_LATER] = {"dialog.later", "Later", 'L'},
-};
 
 static void answer_recovery(void *of, int answer)
 {
@@ -161,12 +151,14 @@ static void answer_recovery(void *of, int answer)
 
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)
 {
+    static const struct answer answers[] = {
+        {"dialog.recover", "Recover", 'R'}, {"dialog.discard", "Discard", 'D'}, {"dialog.later", "Later", 'L'}};
     struct question *question = &dialogs->dialog.question;
     char others[64] = "";
     if (offer->others > 0) {
         snprintf(others, sizeof others, "  %d older one%s after this.", offer->others, offer->others > 1 ? "s" : "");
     }
-    *question = QUESTION(recover_answers, answer_recovery);
+    *question = QUESTION(answers, answer_recovery);
     snprintf(question->title, sizeof question->title, "Recover unsaved work on %s?", offer->name);
     snprintf(question->note, sizeof question->note, "Last kept on %s. Later asks again at the next start.%s",
              offer->when, others);

@@ -1,5 +1,4 @@
 /// The overlays without questions: the commands with their keys (F1), the palette that runs them (F3), and the card for new users.
-#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"

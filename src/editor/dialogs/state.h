@@ -2,7 +2,7 @@
 #ifndef EDITOR_DIALOGS_STATE_H
 #define EDITOR_DIALOGS_STATE_H
 
-#include "editor/core/command.h"
+#include "editor/core/core.h"
 #include "editor/dialogs/dialogs.h"
 #include <limits.h>
 

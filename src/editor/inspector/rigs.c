@@ -96,7 +96,7 @@ void inspector_show_rig(struct inspector *in, int rig)
     static const char *const sections[] = {
         [RIG_TAIL] = "section.tail", [RIG_CHAIN] = "section.tail", [RIG_MODEL] = "section.character"};
     const struct rig *chosen = in->core->document->rigs[rig];
-    if (chosen->kind == RIG_MODEL) bones_clear(in->core);
+    if (chosen->kind == RIG_MODEL) in->core->focus.bone.any = false;
     show_rig(in, rig);
     in->core->focus.limb = chosen->id;
     inspector_unfold(in, sections[chosen->kind]);

@@ -307,7 +307,7 @@ void bone_click(const struct stage *stage, struct core *core)
     if ((pressed->thing == &thing_bone || pressed->thing == &thing_chain) && is_there) {
         bones_clicked(core, pressed->model, pressed->node);
     } else if (core->focus.pick.use == BONE_SELECTED) {
-        bones_clear(core);
+        core->focus.bone.any = false;
     }
 }
 

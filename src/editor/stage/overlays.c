@@ -1,6 +1,5 @@
 /// What is drawn over the stage to show a motion: onion skins, arcs and pins, and the dragging of these.
 #include "base/hash.h"
-#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"

@@ -188,7 +188,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
     }
     stage->pressed = hover;
     if (holds && is_on_rig(&hover)) core->focus.limb = core->document->rigs[hover.rig]->id;
-    if (event->button == BUTTON_LEFT && hover.thing != &thing_pin) pins_clear(core);
+    if (event->button == BUTTON_LEFT && hover.thing != &thing_pin) core->focus.pin = 0;
     if (holds && hover.thing) {
         hover.thing->press(stage, core, &hover, event);
     } else {

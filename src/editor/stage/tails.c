@@ -364,7 +364,7 @@ static void pull_strand(void *room, struct core *core)
     const struct spline *spline = core_active_spline(core);
     const int pulled = spline ? spline_find_knot(core->document, spline, grab->sample) : -1;
     if (pulled < 0) return;
-    pins_clear(core);
+    core->focus.pin = 0;
     selection_clear(&core->focus.selection);
     selection_set(&core->focus.selection, spline->knots[pulled].id, true);
     core_edited(core, -1);
