@@ -388,21 +388,6 @@ void status_show(struct editor *editor)
 
 // --- events
 
-static void move_divider(void *room, struct core *core);
-
-static const struct drag_owner divider_drags[] = {
-    [DIVIDER_STAGE] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
-    [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_divider},
-    [DIVIDER_BELOW] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
-};
-
-static void move_divider(void *room, struct core *core)
-{
-    (void)room;
-    core_divider_move(core, (enum divider)(core->input.drag.owner - divider_drags), core->input.drag.x,
-                      core->input.drag.y);
-}
-
 void editor_leave(struct editor *editor, const struct request *request)
 {
     inspector_let_go(editor->inspector);

@@ -144,7 +144,6 @@ void core_layout(struct core *core);
 float core_reach(const struct core *core, float pixels);
 /// The divider at a point, or DIVIDER_NONE.
 enum divider core_divider_at(const struct core *core, float x, float y);
-void core_divider_move(struct core *core, enum divider divider, float x, float y);
 
 /// Plays, or stops at the nearest frame.
 void playback_toggle(struct core *core);
@@ -209,6 +208,8 @@ struct drag_owner {
     /// Draws a running drag's marks.
     void (*show)(void *room, struct core *core);
 };
+
+extern const struct drag_owner divider_drags[]; ///< by enum divider
 
 /// Whether knots snap to frames; Ctrl inverts the panel's setting.
 bool drag_snaps(const struct core *core, unsigned mods);

@@ -133,20 +133,6 @@ static void ask_remove(struct core *core, const struct spline *active)
              "Parameters that follow keep their value at the playhead. Channels that are driven are deleted.");
 }
 
-/// Inserts copies of the chosen splines after them, and chooses those.
-static void copy_chosen(struct core *core)
-{
-    struct selection copies = {0};
-    if (!core_step(core, "Duplicate", 0)) return;
-    for (int s = core->document->spline_count - 1; s >= 0; s--) {
-        if (core_is_chosen(core, s) && edit_spline_copy(core->document, s, &core->step.error))
-            selection_set(&copies, core->document->splines[s + 1]->id, true);
-    }
-    selection_copy(&core->focus.selection, &copies);
-    free(copies.bits);
-    core_turn_to(core, document_find_spline_id(core->document, core->focus.active_id) + 1);
-}
-
 void spline_list_change(struct core *core, int change)
 {
     struct document *document = core->document;
@@ -159,7 +145,16 @@ void spline_list_change(struct core *core, int change)
             core_activate(core, document->spline_count - 1);
     }
     if (!spline) return;
-    if (change == LIST_COPY) copy_chosen(core);
+    if (change == LIST_COPY && core_step(core, "Duplicate", 0)) { // after them; the copies are chosen
+        struct selection copies = {0};
+        for (int s = document->spline_count - 1; s >= 0; s--) {
+            if (core_is_chosen(core, s) && edit_spline_copy(document, s, &core->step.error))
+                selection_set(&copies, document->splines[s + 1]->id, true);
+        }
+        selection_copy(&core->focus.selection, &copies);
+        free(copies.bits);
+        core_turn_to(core, document_find_spline_id(document, core->focus.active_id) + 1);
+    }
     if (change == LIST_REMOVE) ask_remove(core, spline);
     if (change == LIST_UP || change == LIST_DOWN) { // by a row, into a folder if they come to lie within
         const int by = change == LIST_UP ? -1 : 1;
@@ -442,7 +437,7 @@ void core_find_frequency(struct core *core)
     if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) reason = "Four knots or more are needed to find a frequency.";
     if (follows) reason = "Frequency or damping follows another spline. Give it a number first.";
     if (spline_mode(spline) == WIGGLY_CUBIC) reason = "A cubic does not swing. Press M to change the kind.";
-    wiggly_explanation found[2];
+    wiggly_explanation found[2] = {{0}};
     wiggly_knot *knots;
     const wiggly_desc desc = core_describe(core, core->focus.active, false, &knots);
     const int count = reason ? 0 : wiggly_explain(&desc, found);
@@ -463,14 +458,11 @@ void core_find_frequency(struct core *core)
         !core_set_parameter(core, active, PARAMETER_DAMPING, rounded[chosen][1]))
         return;
     core_edited(core, core->focus.active);
-    const char *which = chosen ? "Runner-up" : "Best";
-    const double hz = found[chosen].frequency, damping = found[chosen].damping;
-    if (count == 1) {
-        core_message(core, false, "%s: %.2f Hz, damping %.3g. There is no runner-up.", which, hz, damping);
-    } else {
-        core_message(core, false, "%s: %.2f Hz, damping %.3g. Shift+F again for the %s: %.2f Hz.", which, hz, damping,
-                     chosen ? "best" : "runner-up", found[1 - chosen].frequency);
-    }
+    core_message(core, false,
+                 count == 1 ? "%s: %.2f Hz, damping %.3g. There is no runner-up."
+                            : "%s: %.2f Hz, damping %.3g. Shift+F again for the %s: %.2f Hz.",
+                 chosen ? "Runner-up" : "Best", found[chosen].frequency, found[chosen].damping,
+                 chosen ? "best" : "runner-up", found[1 - chosen].frequency);
 }
 
 int core_open_curves(const struct core *core)

@@ -69,18 +69,27 @@ enum divider core_divider_at(const struct core *core, float x, float y)
     return DIVIDER_NONE;
 }
 
-void core_divider_move(struct core *core, enum divider divider, float x, float y)
+static void move_divider(void *room, struct core *core)
 {
+    (void)room;
     struct layout *l = &core->view.layout;
+    const struct drag *drag = &core->input.drag;
     const float height = fmaxf(l->curves.y + l->curves.h, 1);
-    const float across = divider == DIVIDER_BELOW ? WHOLE * (1 - y / fmaxf(l->status.y, 1)) : l->window.w - x;
-    if (divider == DIVIDER_STAGE) {
-        l->stage_share = clamped(y, MIN_STAGE, fmaxf(height - MIN_CURVES, 1)) / height;
+    const bool below = drag->owner == &divider_drags[DIVIDER_BELOW];
+    const float across = below ? WHOLE * (1 - drag->y / fmaxf(l->status.y, 1)) : l->window.w - drag->x;
+    if (drag->owner == &divider_drags[DIVIDER_STAGE]) {
+        l->stage_share = clamped(drag->y, MIN_STAGE, fmaxf(height - MIN_CURVES, 1)) / height;
     } else {
         l->inspector_width = roundf(clamped(across, MIN_INSPECTOR, MAX_INSPECTOR));
     }
     core_layout(core);
 }
+
+const struct drag_owner divider_drags[] = {
+    [DIVIDER_STAGE] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
+    [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_divider},
+    [DIVIDER_BELOW] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
+};
 
 // --- playback: the played range is never saved
 

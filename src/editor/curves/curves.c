@@ -584,19 +584,10 @@ static void show_box(void *room, struct core *core)
     drawlist_set_clip(&core->list, clip);
 }
 
-static void box_begin(struct curves *curves, struct core *core, const struct event *event)
+void curves_press_empty(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {
         .cursor = CURSOR_ARROW, .move = draw_box, .end = end_box, .show = show_box};
-    drag_begin(core, &owner, curves, NULL, event);
-    curves->knot_drag = (struct knot_drag){0};
-    bool removes = event->mods & (MOD_CTRL | MOD_ALT);
-    curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
-    selection_copy(&curves->before_box, &core->focus.selection);
-}
-
-void curves_press_empty(void *room, struct core *core, const struct hover *hover, const struct event *event)
-{
     struct curves *curves = room;
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT), twice = event->clicks == 2;
     const bool on_sheet = hover->thing == &thing_row;
@@ -609,8 +600,11 @@ void curves_press_empty(void *room, struct core *core, const struct hover *hover
                          drag_snaps(core, event->mods),
                          hover->thing && event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
     } else {
-        box_begin(curves, core, event);
-        curves->knot_drag.in_sheet = on_sheet;
+        const bool removes = event->mods & (MOD_CTRL | MOD_ALT);
+        const enum box_mode box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
+        drag_begin(core, &owner, curves, NULL, event);
+        curves->knot_drag = (struct knot_drag){.box = box, .in_sheet = on_sheet};
+        selection_copy(&curves->before_box, &core->focus.selection);
     }
 }
 

@@ -4,7 +4,6 @@
 #include "maths/maths.h"
 #include "ui/font.h"
 #include "ui/theme.h"
-#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,7 +86,8 @@ static void apply_slope(void *of, struct core *core)
 {
     const struct curves *curves = of;
     const struct drag *drag = &core->input.drag;
-    const struct knot *knot = &core->step.originals.list[0].knot;
+    const struct spline *spline = core_active_spline(core);
+    const struct knot *knot = &spline->knots[spline_find_id(spline, drag->knot)];
     float end[2];
     curves_handle(core, knot, curves->knot_drag.handle, end);
     double x = curves_knot_x(core, knot);
@@ -198,14 +198,10 @@ const struct thing thing_knot = {.cursor = CURSOR_MOVE,
 static void press_slope(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_MOVE, .apply = apply_slope, .end = end_knots};
-    const struct spline *spline = core_active_spline(core);
     struct curves *curves = room;
-    assert(spline);
     drag_begin(core, &owner, curves, "Change slope", event);
     core->input.drag.knot = hover->knot;
     curves->knot_drag = (struct knot_drag){.handle = hover->handle};
-    core->step.originals.count = 0;
-    originals_add(&core->step.originals, core->focus.active, &spline->knots[spline_find_id(spline, hover->knot)]);
 }
 
 static bool find_slope(void *room, const struct core *core, const struct target *target, float xy[2])

@@ -270,6 +270,7 @@ static struct rect playhead_tag(const struct core *core, char text[32])
 
 static void grid_show(struct core *core)
 {
+    struct drawlist *list = &core->list;
     const struct layout *layout = &core->view.layout;
     const struct rect *plot = &layout->plot, *ruler = &layout->ruler, *axis = &layout->value_axis;
     const struct rect field = {plot->x, layout->sheet.y, plot->w, layout->sheet.h + plot->h}; // with the dope sheet
@@ -278,15 +279,14 @@ static void grid_show(struct core *core)
     const double unit = core->view.on[SWITCH_SECONDS] ? core->document->fps : 1; // frames per unit of the ruler
     struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(core) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(core));
-    drawlist_rect(&core->list, layout->curves, theme()->panel);
-    struct rect clip = drawlist_push_clip(&core->list, field);
+    drawlist_rect(list, layout->curves, theme()->panel);
+    struct rect clip = drawlist_push_clip(list, field);
     const float right = field.x + field.w;
     float first = fmaxf(curves_x(core, core->document->first_frame), field.x);
     float last = fminf(curves_x(core, core->document->last_frame), right);
     if (first > field.x)
-        drawlist_rect(&core->list, (struct rect){field.x, field.y, first - field.x, field.h}, theme()->outside);
-    if (last < right)
-        drawlist_rect(&core->list, (struct rect){last, field.y, right - last, field.h}, theme()->outside);
+        drawlist_rect(list, (struct rect){field.x, field.y, first - field.x, field.h}, theme()->outside);
+    if (last < right) drawlist_rect(list, (struct rect){last, field.y, right - last, field.h}, theme()->outside);
 
     // Minor lines, then major ones over them.
     for (int major = 0; major < 2; major++) {
@@ -294,19 +294,17 @@ static void grid_show(struct core *core)
         const double frames = times.size / (major ? 1 : times.parts) * unit;
         for (double i = ceil(view->frame0 / frames); i * frames <= view->frame1; i++) {
             const float x = sharp(core, curves_x(core, i * frames));
-            if (major || fmod(i, times.parts) != 0)
-                drawlist_rect(&core->list, (struct rect){x, field.y, 1, field.h}, color);
+            if (major || fmod(i, times.parts) != 0) drawlist_rect(list, (struct rect){x, field.y, 1, field.h}, color);
         }
         const double up = values.size / (major ? 1 : values.parts);
         for (double i = ceil(view->value0 / up); i * up <= view->value1; i++) {
             const float y = sharp(core, curves_y(core, i * up));
             if (major || fmod(i, values.parts) != 0)
-                drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1},
-                              major && i == 0 ? theme()->zero : color);
+                drawlist_rect(list, (struct rect){plot->x, y, plot->w, 1}, major && i == 0 ? theme()->zero : color);
         }
     }
-    drawlist_set_clip(&core->list, clip);
-    drawlist_rect(&core->list, (struct rect){ruler->x, layout->sheet.y - 1, ruler->w, 1}, theme()->border);
+    drawlist_set_clip(list, clip);
+    drawlist_rect(list, (struct rect){ruler->x, layout->sheet.y - 1, ruler->w, 1}, theme()->border);
     if (playback_is_part(core)) { // the played range: marked on the ruler, tinted in the plot
         const uint32_t color = theme()->accent;
         double range[2];
@@ -315,14 +313,14 @@ static void grid_show(struct core *core)
         for (int end = 0; end < 2; end++)
             x[end] = fminf(fmaxf(curves_x(core, range[end]), plot->x), plot->x + plot->w);
         const float width = x[1] - x[0];
-        drawlist_rect(&core->list, (struct rect){x[0], plot->y, width, plot->h}, theme_fade(color, 0.05f));
-        drawlist_rect(&core->list, (struct rect){x[0], ruler->y, width, ruler->h}, theme_fade(color, 0.14f));
-        drawlist_rect(&core->list, (struct rect){x[0], ruler->y, 2, ruler->h}, color);
-        drawlist_rect(&core->list, (struct rect){x[1] - 2, ruler->y, 2, ruler->h}, color);
+        drawlist_rect(list, (struct rect){x[0], plot->y, width, plot->h}, theme_fade(color, 0.05f));
+        drawlist_rect(list, (struct rect){x[0], ruler->y, width, ruler->h}, theme_fade(color, 0.14f));
+        drawlist_rect(list, (struct rect){x[0], ruler->y, 2, ruler->h}, color);
+        drawlist_rect(list, (struct rect){x[1] - 2, ruler->y, 2, ruler->h}, color);
     }
 
     // Frames or seconds, centred over the grid lines, but for the one under the playhead's tag.
-    clip = drawlist_push_clip(&core->list, *ruler);
+    clip = drawlist_push_clip(list, *ruler);
     const struct rect tag = playhead_tag(core, text);
     for (double i = ceil(view->frame0 / unit / times.size); i * times.size <= view->frame1 / unit; i++) {
         snprintf(text, sizeof text, "%.*f", times.decimals, i * times.size + 0.0);
@@ -330,16 +328,16 @@ static void grid_show(struct core *core)
         float x = curves_x(core, i * times.size * unit) - width / 2;
         if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
         if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
-        drawlist_text(&core->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
+        drawlist_text(list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
     }
-    drawlist_set_clip(&core->list, clip);
+    drawlist_set_clip(list, clip);
     const struct rect corner = ruler_corner(core);
     const char *name = core->view.on[SWITCH_SECONDS] ? "s" : "frame";
     const float left = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, name);
-    drawlist_text(&core->list, left, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
+    drawlist_text(list, left, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
                   core->input.hover.thing == &thing_units ? theme()->text : theme()->text_dim, name);
 
-    clip = drawlist_push_clip(&core->list, *axis);
+    clip = drawlist_push_clip(list, *axis);
     const float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
     for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
         double value = i * values.size;
@@ -348,10 +346,10 @@ static void grid_show(struct core *core)
         bool wide = fabs(value) >= 1e6 || values.size < 1e-6;
         snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : values.decimals, value + 0.0);
         float x = axis->x + axis->w - 8 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        drawlist_text(&core->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
-                      theme()->text_dim, text);
+        drawlist_text(list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim,
+                      text);
     }
-    drawlist_set_clip(&core->list, clip);
+    drawlist_set_clip(list, clip);
 }
 
 static void choose_range(void *room, struct core *core)
