@@ -189,20 +189,20 @@ enum { PLAY, LOOP, SPEED, AUTO_KEY, KEEP, SIZE, CONTROLS };
 static const struct {
     const char *name, *hint;
     float width;
-    void (*click)(struct core *core, int argument);
-    int argument;
+    const char *word; ///< of a switch
+    int flips;        ///< of enum view_switch
 } controls[CONTROLS] = {
     [PLAY] = {"play", "Play, pause (Space)", 24, NULL, 0},
-    [LOOP] = {"loop", "Loop or stop at the end (Ctrl+L)", 42, core_flip, SWITCH_LOOP},
+    [LOOP] = {"loop", "Loop or stop at the end (Ctrl+L)", 42, "Loop", SWITCH_LOOP},
     [SPEED] = {"speed", "Click: faster; Shift+click: slower; right-click: real time (- and +, or the wheel)", 44,
                NULL, 0},
     [AUTO_KEY] = {"auto-key",
                   "Auto-key: dragging the body sets knots at the playhead; off, it moves the whole shot (Shift+A)",
-                  64, core_flip, SWITCH_AUTO_KEY},
+                  64, "Auto-key", SWITCH_AUTO_KEY},
     [KEEP] = {"keep",
               "Keep: an edit changes nothing beyond the next knot, which becomes a pose; hold Alt to swing through "
               "(Alt+A)",
-              48, core_flip, SWITCH_KEEP},
+              48, "Keep", SWITCH_KEEP},
     [SIZE] = {"size", "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (F8, Shift+F8)",
               48, NULL, 0},
 };
@@ -219,7 +219,7 @@ static bool use_control(struct core *core, int control, const struct event *even
     if (control == SPEED) playback_change_speed(core, step);
     if (control == SIZE) core_request(core, &(struct request){.kind = REQUEST_UI_SCALE, .number = step});
     if (control == PLAY && !turns && left) playback_toggle(core);
-    if (!turns && left && controls[control].click) controls[control].click(core, controls[control].argument);
+    if (!turns && left && controls[control].word) core_flip(core, controls[control].flips);
     return true;
 }
 
@@ -233,11 +233,6 @@ static float lay_out_controls(struct editor *editor)
     char speed[16], size[16];
     snprintf(speed, sizeof speed, "%g×", playback->speed);
     snprintf(size, sizeof size, "%.0f %%", 100 * core->app.figures->ui_scale);
-    const bool on[] = {[PLAY] = playback->playing,          [LOOP] = core->view.on[SWITCH_LOOP],
-                       [SPEED] = playback->speed != 1,      [AUTO_KEY] = core->view.on[SWITCH_AUTO_KEY],
-                       [KEEP] = core->view.on[SWITCH_KEEP], [SIZE] = core->app.figures->ui_scale != 1};
-    const char *const words[CONTROLS] = {
-        [LOOP] = "Loop", [SPEED] = speed, [AUTO_KEY] = "Auto-key", [KEEP] = "Keep", [SIZE] = size};
     const struct rect bar = core->view.layout.status;
     struct rect r = {bar.x + MARGIN, bar.y + 2, 0, bar.h - 3};
     for (int c = 0; c < CONTROLS && !is_covered(core); c++) {
@@ -249,7 +244,12 @@ static float lay_out_controls(struct editor *editor)
         const bool hot = ui_hovered(ui, r);
         if (ui->pass == UI_PASS_EVENT && hot && !ui->used) ui->used = use_control(core, c, ui->event);
         if (ui->pass != UI_PASS_DRAW) continue;
-        const uint32_t color = on[c] ? theme()->accent : hot ? theme()->text : theme()->text_dim;
+        const bool on = c == PLAY    ? playback->playing
+                        : c == SPEED ? playback->speed != 1
+                        : c == SIZE  ? core->app.figures->ui_scale != 1
+                                     : core->view.on[controls[c].flips];
+        const char *word = c == SPEED ? speed : c == SIZE ? size : controls[c].word;
+        const uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
         if (c == PLAY) {
             const float x = r.x + 6, y = r.y + r.h / 2;
             const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
@@ -258,9 +258,9 @@ static float lay_out_controls(struct editor *editor)
                 drawlist_rect(ui->list, (struct rect){x + 5 * (float)i, y - 5, 3, 10}, color);
         } else {
             const enum font font = c == SPEED || c == SIZE ? FONT_NUMBER : FONT_LABEL;
-            const float width = font_width(font, ui_text_size(font), words[c]), x = roundf(r.x + (r.w - width) / 2);
+            const float width = font_width(font, ui_text_size(font), word), x = roundf(r.x + (r.w - width) / 2);
             drawlist_text(ui->list, x, ui_baseline(r, font, ui_text_size(font)), font, ui_text_size(font), color,
-                          words[c]);
+                          word);
         }
     }
     return r.x + r.w;

@@ -403,7 +403,7 @@ void bones_set_end(struct core *core, int chain, bool first, int node);
 void bones_make_chain(struct core *core, int follow);
 
 /// Has flesh made of the selected bone and those below it; else of what paint chooses of the selected character, or all of it. The second time it ends that.
-void rigs_make_flesh(struct core *core, int unused);
+void rigs_make_flesh(struct core *core);
 
 /// A chain whose bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at: `chain` if it
 /// has, else the last; -1: none.
@@ -526,12 +526,12 @@ enum { COMMAND_KEYS = 96 }; ///< bytes for a key's name, or a gesture's
 /// The heading of the commands that the palette lists last.
 extern const char ABOUT_FILE[];
 
-/// A row of the table. A row without a function is a gesture, listed only in F1.
+/// A row of the table. A row with a name and without a function is a gesture, listed only in F1.
 struct command {
-    const char *name;  ///< NULL: not listed
-    const char *also;  ///< other words for it, which the palette finds; NULL for a gesture
-    const char *about; ///< its heading in F1; NULL: not in F1
-    unsigned at;       ///< of enum place
+    const char *name;    ///< NULL: not listed
+    const char *also;    ///< other words for it, which the palette finds; NULL for a gesture
+    const char *heading; ///< a row with this alone heads those behind it in F1; "": those are not in F1
+    unsigned at;         ///< of enum place
     struct chord chord;
     enum need needs;
     unsigned when;       ///< of enum when

@@ -446,11 +446,10 @@ void bones_make_twin(struct core *core, int chain)
                  rig_title(core->document->rigs[core->document->rig_count - 1]));
 }
 
-void rigs_make_flesh(struct core *core, int unused)
+void rigs_make_flesh(struct core *core)
 {
     int model;
     const int node = bones_selected(core, &model);
-    (void)unused;
     if (node < 0) model = characters_rig(core);
     if (model < 0) model = document_find_rig(core->document, RIG_MODEL, 0);
     core_request(core,

@@ -77,22 +77,15 @@ static bool release(struct core *core, const struct reference *reference)
     struct document *document = core->document;
     const int owner = reference->owner, which = reference->which;
     const wiggly_value now = evaluation_at(core->evaluation, reference->spline, core->view.playback.position);
-    switch (reference->kind) {
-    case REFERENCE_TRACK: {
-        const enum parameter parameter = (enum parameter)which;
-        return core_set_parameter(core, owner, parameter, spline_list_present(core, owner, parameter));
-    }
-    case REFERENCE_POSITION: {
-        struct rig changed = *document->rigs[owner];
-        changed.tail.position[which] = param_number(now.y + now.re);
-        return edit_rig_set(document, owner, &changed, &core->step.error);
-    }
-    case REFERENCE_CHANNEL:
+    if (reference->kind == REFERENCE_TRACK)
+        return core_set_parameter(core, owner, (enum parameter)which,
+                                  spline_list_present(core, owner, (enum parameter)which));
+    if (reference->kind == REFERENCE_CHANNEL)
         return edit_channel_remove(document, (struct channel_place){owner, which}, &core->step.error);
-    case REFERENCE_DRIVE:
-        return edit_drive_remove(document, owner, which, &core->step.error);
-    }
-    return false;
+    if (reference->kind == REFERENCE_DRIVE) return edit_drive_remove(document, owner, which, &core->step.error);
+    struct rig changed = *document->rigs[owner]; // its position
+    changed.tail.position[which] = param_number(now.y + now.re);
+    return edit_rig_set(document, owner, &changed, &core->step.error);
 }
 
 /// The last spline and the last reference go first, so that the indices of the others stay valid.

@@ -211,9 +211,8 @@ void keep_ghost(struct curves *curves, const struct core *core)
         wiggly_value v = evaluation_at(core->evaluation, core->focus.active, cache->position[c]);
         ghost->frame[c] = frame_of(core->document, cache->position[c]);
         ghost->value[c] = v.y + v.re;
-        if (!cache->band) continue;
-        ghost->frame[c] = curves_frame(core, cache->re[c][0]);
-        ghost->value[c] = curves_value(core, cache->re[c][1]);
+        if (cache->band) ghost->frame[c] = curves_frame(core, cache->re[c][0]);
+        if (cache->band) ghost->value[c] = curves_value(core, cache->re[c][1]);
     }
 }
 

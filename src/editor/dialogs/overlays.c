@@ -84,13 +84,8 @@ static void find_headed(const struct dialogs *dialogs, struct commands_found *fo
     for (int i = 0; i < dialogs->command_count; i++) {
         if (commands[i].at & dialogs->lookup.at) add_found(found, &commands[i], NULL);
     }
-    const char *about = NULL;
-    for (int i = 0; i < dialogs->command_count; i++) {
-        if (!commands[i].about) continue;
-        if (commands[i].about != about) add_found(found, NULL, commands[i].about);
-        add_found(found, &commands[i], NULL);
-        about = commands[i].about;
-    }
+    for (int i = 0; !commands[i].heading || commands[i].heading[0]; i++)
+        add_found(found, commands[i].heading ? NULL : &commands[i], commands[i].heading);
 }
 
 /// Finds the commands that match, and lays out the overlay that is open. For the palette those that can run now come first, of these files
@@ -104,12 +99,14 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
     const bool menu = dialogs->lookup.kind == LOOKUP_MENU, runs = menu || dialogs->lookup.kind == LOOKUP_PALETTE;
     const char *missing[NEEDS_COUNT] = {NULL};
     enum fit fits[COMMANDS_MOST], best = FIT_NOT;
+    bool listed = true; // in F1
     if (runs) needs_missing(core, missing);
     for (int i = 0; i < count; i++) {
         const struct command *command = &commands[i];
         char keys[COMMAND_KEYS], text[256];
         fits[i] = FIT_NOT;
-        if (!command->name || !(runs ? command_runs(command) : command->about != NULL)) continue;
+        if (command->heading) listed = command->heading[0];
+        if (!command->name || !(runs ? command_runs(command) : listed)) continue;
         const unsigned at = dialogs->lookup.at, in_curves = at & (ON_CURVES | ON_KNOT) ? IN_CURVES_MENU : 0;
         const unsigned places = at | in_curves | (at & ON_STAGE ? IN_STAGE_MENU : 0);
         if (runs && (command->at & IN_EXAMPLES) != (at & IN_EXAMPLES)) continue;
@@ -126,8 +123,10 @@ static struct page lookup_page(const struct dialogs *dialogs, struct commands_fo
     if (headed) find_headed(dialogs, found);
     for (enum fit fit = FIT_START; !headed && fit >= ui_filter_least(best); fit--) {
         for (int order = 0; order < 4; order++) {
+            const char *heading = NULL;
             for (int i = 0; i < count; i++) {
-                const int late = runs && commands[i].about == ABOUT_FILE;
+                if (commands[i].heading) heading = commands[i].heading;
+                const int late = runs && heading == ABOUT_FILE;
                 const char *lacks = missing[commands[i].needs];
                 if (fits[i] != fit || (lacks ? 2 : 0) + late != order) continue;
                 add_found(found, &commands[i], lacks);

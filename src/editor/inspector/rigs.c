@@ -910,5 +910,5 @@ void inspector_character(struct inspector *in)
                                                                           : "Make flesh of the bone",
                               .hint = "Simulate it as a soft body, to swing on its bones"};
     r = ui_row(ui, UI_ROW);
-    if (inspector_button(in, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, &flesh)) rigs_make_flesh(in->core, 0);
+    if (inspector_button(in, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, &flesh)) rigs_make_flesh(in->core);
 }
