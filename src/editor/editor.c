@@ -573,8 +573,7 @@ void editor_show(struct editor *editor)
     }
 
     stage_show(editor->stage, core);
-    dialogs_show_welcome(editor->dialogs, stage_figure(editor->stage, core));
-    stage_show_caption(core, dialogs_bottom(editor->dialogs));
+    stage_show_caption(core, dialogs_show_welcome(editor->dialogs, stage_figure(editor->stage, core)));
     curves_show(editor->curves, core);
     show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
     inspector_show(editor->inspector, covered);

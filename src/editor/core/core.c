@@ -145,6 +145,15 @@ void core_end(struct core *core)
     core->step.seen = NULL;
 }
 
+static void originals_add(struct originals *originals, int spline, const struct knot *knot)
+{
+    if (originals->count == originals->capacity) {
+        originals->capacity = 2 * originals->capacity + 64;
+        originals->list = need_more(originals->list, (size_t)originals->capacity, sizeof *originals->list);
+    }
+    originals->list[originals->count++] = (struct original){.spline = spline, .knot = *knot};
+}
+
 bool core_step(struct core *core, const char *label, uint64_t merge)
 {
     core_close(core);
@@ -523,15 +532,6 @@ void selected_activate(struct core *core)
     struct knot_place first = SELECTED_START;
     if (selection_count(&core->focus.selection, core_active_spline(core)) > 0) return;
     if (selected_next(core, &first)) core_turn_to(core, first.spline);
-}
-
-void originals_add(struct originals *originals, int spline, const struct knot *knot)
-{
-    if (originals->count == originals->capacity) {
-        originals->capacity = 2 * originals->capacity + 64;
-        originals->list = need_more(originals->list, (size_t)originals->capacity, sizeof *originals->list);
-    }
-    originals->list[originals->count++] = (struct original){.spline = spline, .knot = *knot};
 }
 
 void core_collect(struct core *core, bool later)

@@ -104,7 +104,6 @@ int selected_count(const struct core *core);
 /// If only another spline's knots are selected, activates that spline.
 void selected_activate(struct core *core);
 
-void originals_add(struct originals *originals, int spline, const struct knot *knot);
 /// Collects the selected knots in `originals`; `later`: also all knots after each spline's first one.
 void core_collect(struct core *core, bool later);
 
@@ -313,8 +312,6 @@ void spline_list_fps(struct core *core, double fps);
 /// Sets the range; asks whether to move or delete knots outside.
 void spline_list_range(struct core *core, int first, int last);
 
-/// How many curves do not end as they start, so that looping playback jumps.
-int core_open_curves(const struct core *core);
 /// Closes all curves: each ends as it starts. A knot on the last frame goes, because that frame then repeats the first.
 void core_close_curves(struct core *core);
 

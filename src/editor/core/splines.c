@@ -1,7 +1,6 @@
 /// Edits of splines: their list, timing and parameters, and the frequency that explains their knots.
 #include "base/names.h"
 #include "editor/core/core.h"
-#include "maths/maths.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -456,23 +455,6 @@ void core_find_frequency(struct core *core)
                             : "%s: %.2f Hz, damping %.3g. Shift+F again for the %s: %.2f Hz.",
                  chosen ? "Runner-up" : "Best", found[chosen].frequency, found[chosen].damping,
                  chosen ? "best" : "runner-up", found[1 - chosen].frequency);
-}
-
-int core_open_curves(const struct core *core)
-{
-    static const double SEEN = 0.01; // of the curve's height
-    const struct evaluation *evaluation = core->evaluation;
-    int count = 0;
-    for (int s = 0; evaluation && s < evaluation->count && s < core->document->spline_count; s++) {
-        const int last = evaluation->samples - 1;
-        const double *total = evaluation->curves[s].total;
-        if (last < 1 || spline_start(core->document->splines[s]) == WIGGLY_LOOP) continue;
-        const wiggly_value first = evaluation_at(evaluation, s, 0), end = evaluation_at(evaluation, s, last);
-        const double height = total[evaluation_extreme(evaluation, s, 0, last, true)] -
-                              total[evaluation_extreme(evaluation, s, 0, last, false)];
-        count += maths_hypot(total[last] - total[0], end.im - first.im) > SEEN * height;
-    }
-    return count;
 }
 
 void core_close_curves(struct core *core)

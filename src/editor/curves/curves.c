@@ -317,6 +317,24 @@ static bool seam_is_played(const struct core *core)
     return core->view.playback.playing && core->view.on[SWITCH_LOOP] && !playback_is_part(core);
 }
 
+/// How many curves do not end as they start, so that looping playback jumps.
+static int open_curves(const struct core *core)
+{
+    static const double SEEN = 0.01; // of the curve's height
+    const struct evaluation *evaluation = core->evaluation;
+    int count = 0;
+    for (int s = 0; evaluation && s < evaluation->count && s < core->document->spline_count; s++) {
+        const int last = evaluation->samples - 1;
+        const double *total = evaluation->curves[s].total;
+        if (last < 1 || spline_start(core->document->splines[s]) == WIGGLY_LOOP) continue;
+        const wiggly_value first = evaluation_at(evaluation, s, 0), end = evaluation_at(evaluation, s, last);
+        const double height = total[evaluation_extreme(evaluation, s, 0, last, true)] -
+                              total[evaluation_extreme(evaluation, s, 0, last, false)];
+        count += maths_hypot(total[last] - total[0], end.im - first.im) > SEEN * height;
+    }
+    return count;
+}
+
 void follow_edits(struct curves *curves, struct core *core)
 {
     const struct edited *edited = &core->step.edited;
@@ -324,7 +342,7 @@ void follow_edits(struct curves *curves, struct core *core)
     const bool has_changed = curves->followed != document->edits;
     curves->followed = document->edits;
     if (seam_is_played(core) && curves->open_of != document->edits) {
-        curves->open = core_open_curves(core);
+        curves->open = open_curves(core);
         curves->open_of = document->edits;
     }
     if (!edited->selection && edited->count == 0 && !has_changed) return;
@@ -903,13 +921,11 @@ static void press_warning(void *room, struct core *core, const struct hover *hov
     const struct warning warning = curves->warnings.list[hover->handle];
     struct fix fix = *fix_of(curves, core, hover->handle);
     (void)event;
-    char text[FIX_TEXT + 8];
     core_activate(core, warning.spline);
     if (!core_active_spline(core) || !core_step(core, cures[warning.kind].label, 0)) return;
     const bool helps = fix.rank >= 0;
     const bool good = helps && remedy_apply(fix.rank, core->document, &warning, fix.text, &core->step.error);
-    snprintf(text, sizeof text, "Done: %s.", fix.text);
-    if (good || !helps) core_message(core, false, "%s", good ? text : NO_REMEDY);
+    if (good || !helps) core_message(core, false, helps ? "Done: %s." : NO_REMEDY, fix.text);
 }
 
 void curves_remedy_first(struct curves *curves, struct core *core, int unused)

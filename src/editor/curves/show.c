@@ -495,11 +495,7 @@ static const float FAN_NEAR = 0.24f,
 
 static void show_line(struct core *core, const float *xy, int count, bool band, float width, uint32_t color)
 {
-    if (band) {
-        drawlist_band(&core->list, xy, count, width, color);
-    } else {
-        drawlist_line(&core->list, xy, count, width, color);
-    }
+    (band ? drawlist_band : drawlist_line)(&core->list, xy, count, width, color);
 }
 
 /// A spline's colour, fainter if it is locked.

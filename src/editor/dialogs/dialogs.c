@@ -40,6 +40,65 @@ static void dialog_close(struct dialogs *dialogs)
     dialog->after.kind = REQUEST_NONE;
 }
 
+static bool is_question(const struct dialog *dialog)
+{
+    return dialog->kind >= DIALOG_UNSAVED && dialog->kind <= DIALOG_ASK;
+}
+
+/// Lists a new folder and picks the names that match the text after it. Matching recent files come first unless a folder is typed.
+static void dialog_match(struct dialog *dialog)
+{
+    char folder[UI_TEXT_SIZE];
+    struct ui_filter filter = {{0}};
+    const char *name = path_name(dialog->ui.text.bytes);
+    snprintf(folder, sizeof folder, "%.*s", (int)(name - dialog->ui.text.bytes), dialog->ui.text.bytes);
+    if (dialog->name_count < 0 || strcmp(folder, dialog->listed) != 0) {
+        const struct editor_app *app = dialog->app;
+        const char *at = *folder ? folder : ".";
+        snprintf(dialog->listed, sizeof dialog->listed, "%s", folder);
+        const int count = app->list ? app->list(app->user, at, dialog->names, DIALOG_MAX_NAMES) : 0;
+        dialog->name_count = count > 0 ? count : 0;
+        if (!realpath(at, dialog->folder)) dialog->folder[0] = '\0';
+    }
+    dialog->match_count = 0;
+    dialog->choice = -1;
+    // A fully selected name is about to be replaced, so everything matches.
+    if (!dialog->ui.text.all) snprintf(filter.typed, sizeof filter.typed, "%s", name);
+    const int recent = dialog->kind == DIALOG_OPEN && !folder[0] ? dialog->recent_count : 0;
+    for (int i = 0; i < recent; i++) {
+        if (ui_filter_fit(&filter, path_name(dialog->recent[i].path)) >= FIT_INSIDE)
+            dialog->match[dialog->match_count++] = (struct dialog_match){.recent = &dialog->recent[i]};
+    }
+    for (int pass = 0; pass < 2; pass++) { // names that begin with the text, then those that hold it elsewhere
+        for (int at = 0; at < dialog->name_count; at++) {
+            const char *candidate = dialog->names[at];
+            const enum fit fit = ui_filter_fit(&filter, candidate);
+            const bool behind = background_suits(candidate) && candidate[strlen(candidate) - 1] != '/';
+            if (dialog->kind == DIALOG_ADD ? path_has_end(candidate, ".json") : behind) continue;
+            if (fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0))
+                dialog->match[dialog->match_count++] = (struct dialog_match){.name = candidate};
+        }
+    }
+}
+
+/// `path` may be "".
+static void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    dialog->kind = kind;
+    dialog->awaited = REQUEST_NONE;
+    dialog->error[0] = '\0';
+    dialog->name_count = -1;
+    dialog->choice = 0;
+    ui_release(&dialog->ui);
+    ui_text_set(&dialog->ui.text, path);
+    dialog->ui.text.all = path[0] != '\0';
+    if (is_question(dialog) || kind == DIALOG_EXPORT) return;
+    bool lists = kind == DIALOG_OPEN && dialog->app->recent;
+    dialog->recent_count = lists ? dialog->app->recent(dialog->app->user, dialog->recent, DIALOG_MAX_RECENT) : 0;
+    dialog_match(dialog);
+}
+
 /// Carries out a request that had to wait; REQUEST_OPEN without a path asks for one.
 static void dialog_go_on(struct dialogs *dialogs, const struct request *after)
 {
@@ -581,68 +640,10 @@ static void export_build(struct dialogs *dialogs)
 
 enum { LIST_ROWS = 8, AROUND_LIST = 184, BUTTON_WIDTH = 104 };
 
-static bool is_question(const struct dialog *dialog)
-{
-    return dialog->kind >= DIALOG_UNSAVED && dialog->kind <= DIALOG_ASK;
-}
-
 static bool begins(const struct dialog *dialog, const char *name)
 {
     const char *typed = path_name(dialog->ui.text.bytes);
     return strncmp(name, typed, strlen(typed)) == 0;
-}
-
-/// Lists a new folder and picks the names that match the text after it. Matching recent files come first unless a folder is typed.
-static void dialog_match(struct dialog *dialog)
-{
-    char folder[UI_TEXT_SIZE];
-    struct ui_filter filter = {{0}};
-    const char *name = path_name(dialog->ui.text.bytes);
-    snprintf(folder, sizeof folder, "%.*s", (int)(name - dialog->ui.text.bytes), dialog->ui.text.bytes);
-    if (dialog->name_count < 0 || strcmp(folder, dialog->listed) != 0) {
-        const struct editor_app *app = dialog->app;
-        const char *at = *folder ? folder : ".";
-        snprintf(dialog->listed, sizeof dialog->listed, "%s", folder);
-        const int count = app->list ? app->list(app->user, at, dialog->names, DIALOG_MAX_NAMES) : 0;
-        dialog->name_count = count > 0 ? count : 0;
-        if (!realpath(at, dialog->folder)) dialog->folder[0] = '\0';
-    }
-    dialog->match_count = 0;
-    dialog->choice = -1;
-    // A fully selected name is about to be replaced, so everything matches.
-    if (!dialog->ui.text.all) snprintf(filter.typed, sizeof filter.typed, "%s", name);
-    const int recent = dialog->kind == DIALOG_OPEN && !folder[0] ? dialog->recent_count : 0;
-    for (int i = 0; i < recent; i++) {
-        if (ui_filter_fit(&filter, path_name(dialog->recent[i].path)) >= FIT_INSIDE)
-            dialog->match[dialog->match_count++] = (struct dialog_match){.recent = &dialog->recent[i]};
-    }
-    for (int pass = 0; pass < 2; pass++) { // names that begin with the text, then those that hold it elsewhere
-        for (int at = 0; at < dialog->name_count; at++) {
-            const char *candidate = dialog->names[at];
-            const enum fit fit = ui_filter_fit(&filter, candidate);
-            const bool behind = background_suits(candidate) && candidate[strlen(candidate) - 1] != '/';
-            if (dialog->kind == DIALOG_ADD ? path_has_end(candidate, ".json") : behind) continue;
-            if (fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0))
-                dialog->match[dialog->match_count++] = (struct dialog_match){.name = candidate};
-        }
-    }
-}
-
-void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path)
-{
-    struct dialog *dialog = &dialogs->dialog;
-    dialog->kind = kind;
-    dialog->awaited = REQUEST_NONE;
-    dialog->error[0] = '\0';
-    dialog->name_count = -1;
-    dialog->choice = 0;
-    ui_release(&dialog->ui);
-    ui_text_set(&dialog->ui.text, path);
-    dialog->ui.text.all = path[0] != '\0';
-    if (is_question(dialog) || kind == DIALOG_EXPORT) return;
-    bool lists = kind == DIALOG_OPEN && dialog->app->recent;
-    dialog->recent_count = lists ? dialog->app->recent(dialog->app->user, dialog->recent, DIALOG_MAX_RECENT) : 0;
-    dialog_match(dialog);
 }
 
 void dialogs_save_as(struct dialogs *dialogs)
@@ -974,10 +975,4 @@ bool dialogs_cover(const struct dialogs *dialogs) { return dialogs_are_asking(di
 enum ui_over dialogs_over(const struct dialogs *dialogs)
 {
     return dialogs_are_asking(dialogs) ? dialogs->dialog.ui.over : UI_OVER_NOTHING;
-}
-
-float dialogs_bottom(const struct dialogs *dialogs)
-{
-    const struct rect *stage = &dialogs->core->view.layout.stage;
-    return dialogs->welcome ? dialogs->card.y : stage->y + stage->h;
 }

@@ -47,12 +47,10 @@ const struct command *dialogs_take_command(struct dialogs *dialogs);
 bool dialogs_cover(const struct dialogs *dialogs);
 /// What part of a dialog the pointer is on.
 enum ui_over dialogs_over(const struct dialogs *dialogs);
-/// Height of the stage's left side that is free of overlays.
-float dialogs_bottom(const struct dialogs *dialogs);
 /// Opens the card for new users.
 void dialogs_welcome(struct dialogs *dialogs);
 bool dialogs_is_welcoming(const struct dialogs *dialogs);
-/// Draws the card for new users beside `figure`, the rigs' rectangle.
-void dialogs_show_welcome(struct dialogs *dialogs, struct rect figure);
+/// Draws the card for new users beside `figure`, the rigs' rectangle, if it is shown; returns the height of the stage's left side that stays free.
+float dialogs_show_welcome(struct dialogs *dialogs, struct rect figure);
 
 #endif

@@ -460,16 +460,17 @@ static void show_right(struct core *core, const struct card *card, float y, enum
     show_text(core, card->rect.x + card->rect.w - CARD_PAD - width_of(font, text), y, font, color, text);
 }
 
-void dialogs_show_welcome(struct dialogs *dialogs, struct rect figure)
+float dialogs_show_welcome(struct dialogs *dialogs, struct rect figure)
 {
     struct core *core = dialogs->core;
+    const struct rect *stage = &core->view.layout.stage;
     if (!history_is_saved(core->history)) dialogs->welcome = false;
-    if (!dialogs->welcome) return;
+    if (!dialogs->welcome) return stage->y + stage->h;
     const struct card card = place_card(core, figure);
     dialogs->card = (struct rect){0};
-    if (card.rect.w > core->view.layout.stage.w) return;
+    if (card.rect.w > stage->w) return 0;
     struct drawlist *list = &core->list;
-    struct rect clip = drawlist_push_clip(list, core->view.layout.stage);
+    struct rect clip = drawlist_push_clip(list, *stage);
     drawlist_rounded(list, card.rect, 8, theme()->panel);
     drawlist_rounded_line(list, card.rect, 8, 1, theme()->zero);
     const float left = card.rect.x + CARD_PAD;
@@ -492,4 +493,5 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct rect figure)
     show_right(core, &card, y, FONT_LABEL_BOLD, theme()->accent, closing);
     drawlist_set_clip(list, clip);
     dialogs->card = card.rect;
+    return card.rect.y;
 }

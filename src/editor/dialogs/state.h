@@ -83,9 +83,6 @@ struct dialogs {
     struct rect card; ///< its rectangle
 };
 
-/// `path` may be "".
-void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path);
-
 /// Typing searches, arrows choose, the wheel and drags scroll, Esc closes; Enter or a click runs a command. true for keys, text, buttons, drags
 /// and wheel while it is open.
 bool lookup_event(struct dialogs *dialogs, const struct event *event);
