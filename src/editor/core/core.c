@@ -355,9 +355,7 @@ void core_add_stopped(const char *why, char *text, size_t size)
 
 void core_stopped(struct core *core, const char *why)
 {
-    char text[STOPPED_SIZE + 1] = "";
-    core_add_stopped(why, text, sizeof text);
-    core_message(core, false, "%s", text);
+    core_message(core, false, "%c%s.", toupper(why[0]), why + 1);
 }
 
 struct spline *core_active_spline(const struct core *core)

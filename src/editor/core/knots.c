@@ -384,37 +384,31 @@ void core_paste_knots(struct core *core, const char *text)
     knot_list_free(&list);
 }
 
-/// Shift of the copies in frames: as far behind the last original as that is behind the one before, or further until all have room.
-static double copies_shift(const struct originals *originals, const struct document *document)
-{
-    double first = INFINITY, last = -INFINITY, before = -INFINITY;
-    for (int i = 0; i < originals->count; i++) {
-        const double frame = originals->list[i].knot.frame;
-        first = fmin(first, frame);
-        if (frame > last) before = last;
-        if (frame < last) before = fmax(before, frame);
-        last = fmax(last, frame);
-    }
-    const double step = isfinite(before) ? last - before : 1;
-    double shift = round(last - first + fmax(step, 1));
-    for (int i = 0; i < originals->count; i++) {
-        const struct original *original = &originals->list[i];
-        const int sample = document_sample(document, original->knot.frame + shift);
-        if (spline_find_knot(document, document->splines[original->spline], sample) < 0) continue;
-        shift++;
-        i = -1; // all anew
-    }
-    return shift;
-}
-
 void core_duplicate_knots(struct core *core)
 {
     struct document *document = core->document;
     const struct originals *originals = &core->step.originals;
     const int count = collect(core);
     if (count == 0) return;
-    const double shift = copies_shift(originals, document);
     const unsigned first_id = document->next_id;
+
+    // The copies lie as far behind the last original as that is behind the one before, or further until all have room.
+    double first = INFINITY, last = -INFINITY, before = -INFINITY;
+    for (int i = 0; i < count; i++) {
+        const double frame = originals->list[i].knot.frame;
+        first = fmin(first, frame);
+        if (frame > last) before = last;
+        if (frame < last) before = fmax(before, frame);
+        last = fmax(last, frame);
+    }
+    double shift = round(last - first + fmax(isfinite(before) ? last - before : 1, 1));
+    for (int i = 0; i < count; i++) {
+        const struct original *original = &originals->list[i];
+        const int sample = document_sample(document, original->knot.frame + shift);
+        if (spline_find_knot(document, document->splines[original->spline], sample) < 0) continue;
+        shift++;
+        i = -1; // all anew
+    }
 
     // The last frame that the scene needs. A loop's last sample is its first one.
     double most = document->last_frame;

@@ -465,22 +465,6 @@ static bool find_seam(void *room, const struct core *core, const struct target *
     return seam_place(room, core, xy);
 }
 
-static void press_seam(void *room, struct core *core, const struct hover *hover, const struct event *event)
-{
-    (void)room, (void)hover, (void)event;
-    core_close_curves(core);
-}
-
-const struct thing thing_seam = {
-    .cursor = CURSOR_HAND,
-    .hint = "Playback jumps here, because curves do not end as they start. Click to close all curves",
-    .is_control = true,
-    .place = ON_TIME,
-    .press = press_seam,
-    .name = "seam",
-    .find = find_seam,
-    .missing = "playback does not jump there"};
-
 static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }
 
 /// The inspector lays out the splines' list; this is for its menu and F1.
@@ -646,24 +630,35 @@ const struct thing thing_active_curve = {
     .hint = "Double-click to insert a knot on the curve, with Shift a pose; drag to select with a box",
     .press = curves_press_empty};
 
-/// The corner of the ruler.
-static void press_switch(void *room, struct core *core, const struct hover *hover, const struct event *event)
+static void press_control(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     (void)room, (void)event;
-    core_flip(core, hover->thing == &thing_units ? SWITCH_SECONDS : SWITCH_SHEET);
+    if (hover->thing == &thing_seam) core_close_curves(core);
+    if (hover->thing == &thing_units) core_flip(core, SWITCH_SECONDS);
+    if (hover->thing == &thing_sheet) core_flip(core, SWITCH_SHEET);
 }
+
+const struct thing thing_seam = {
+    .cursor = CURSOR_HAND,
+    .hint = "Playback jumps here, because curves do not end as they start. Click to close all curves",
+    .is_control = true,
+    .place = ON_TIME,
+    .press = press_control,
+    .name = "seam",
+    .find = find_seam,
+    .missing = "playback does not jump there"};
 
 const struct thing thing_units = {.cursor = CURSOR_HAND,
                                   .hint = "Click to switch between frames and seconds (U)",
                                   .is_control = true,
                                   .place = ON_TIME,
-                                  .press = press_switch};
+                                  .press = press_control};
 
 const struct thing thing_sheet = {.cursor = CURSOR_HAND,
                                   .hint = "Click to open or close the dope sheet (F7)",
                                   .is_control = true,
                                   .place = ON_TIME,
-                                  .press = press_switch};
+                                  .press = press_control};
 
 static void pan_view(void *room, struct core *core)
 {

@@ -658,7 +658,7 @@ void scale_box_show(const struct curves *curves, struct core *core, bool handles
 
 // The dope sheet (F7): one row per spline between ruler and curves. Its knots are marks you drag in time.
 
-enum { ROW = 16, SHEET_PAD = 3, MOST_ROWS = 6 }; ///< pixels; padding above and below; more rows scroll
+enum { ROW = 16, SHEET_PAD = 3 }; ///< pixels; padding above and below
 
 static const float LEAST_PLOT = 90; ///< least height of the curves, in pixels
 static const float MARK_REACH = 7;  ///< pixels at which a mark is hit
@@ -672,7 +672,7 @@ void sheet_update(struct curves *curves, struct core *core)
         total += spline_list_shows(core, s);
         if (s < core->focus.active) active = total;
     }
-    int rows = total < MOST_ROWS ? total : MOST_ROWS;
+    int rows = total < SHEET_MAX_ROWS ? total : SHEET_MAX_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
     if (sheet->active != core->focus.active_id) { // scroll its row into view
         sheet->list.view = (float)rows;

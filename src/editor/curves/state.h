@@ -12,14 +12,13 @@ enum {
     CURVES_MAX_RANGES = 256,   ///< splines that can be normalised
     CURVES_FAN = 7,            ///< lagged copies of the active curve
     CURVES_HIT_RADIUS = 10,
+    SHEET_MAX_ROWS = 6, ///< more scroll
 };
 
 /// Maps a spline's values to the active one's: scale·value + offset.
 struct value_map {
     double scale, offset;
 };
-
-enum { SHEET_MAX_ROWS = 16 };
 
 struct dope_sheet {
     struct ui_list list; ///< in rows

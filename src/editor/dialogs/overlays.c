@@ -6,7 +6,6 @@
 #include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { COMMANDS_MOST = 320 };
 
