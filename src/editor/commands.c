@@ -137,11 +137,9 @@ static void run_nudge(struct editor *editor, int way)
     const unsigned mods = editor->core.input.mods;
     const double size = mods & MOD_SHIFT ? 10 : mods & MOD_CTRL ? 0.1 : 1;
     const double across = size * way_sign[way][0], up = -size * way_sign[way][1];
-    if (pins_any_selected(&editor->core)) {
-        stage_nudge_pin(editor->stage, &editor->core, across, up);
-    } else {
-        curves_nudge(editor->curves, &editor->core, across, up);
-    }
+    const bool pin = pins_any_selected(&editor->core);
+    if (pin) stage_nudge_pin(editor->stage, &editor->core, across, up);
+    if (!pin) curves_nudge(editor->curves, &editor->core, across, up);
 }
 
 /// The first of the sizes clearly above the present one, then the smallest again.
@@ -548,7 +546,11 @@ bool keys_event(struct editor *editor, const struct event *event)
     if (holds && event->action == ACTION_PRESS) {
         core->input.held_key = event->key;
         core->input.held_used = false;
-        if (event->key == 'K') take_explain(core);
+        if (key == 'K' && !core->take.document) {
+            core_message(core, false, "Nothing is kept yet: Shift+K keeps the scene as before.");
+        } else if (key == 'K' && take_is_shown(core) && !take_is_posed(core)) {
+            core_message(core, false, "Only the curves show before: the rigs or frames have changed since.");
+        }
     }
     const bool bound = !holds && keys_run(editor, event->key, mods, event->action == ACTION_REPEAT);
     editor->press.opened = inspector_ui(editor->inspector)->popup.id != 0;

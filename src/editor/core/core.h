@@ -184,8 +184,6 @@ bool take_is_posed(const struct core *core);
 /// What a spline or rig was before: the spline's index there, or -1; the rig, or NULL.
 int take_spline(const struct core *core, int spline);
 const struct rig *take_rig(const struct core *core, int rig);
-/// Says why K does not show it.
-void take_explain(struct core *core);
 
 // --- a drag of the pointer. Only the panel that starts it gets its events
 

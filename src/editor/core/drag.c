@@ -106,10 +106,8 @@ void drag_show(const void *room, struct core *core)
 bool drag_lock(struct drag *drag, int key)
 {
     if (key != 'X' && key != 'Y') return false;
-    bool *lock = key == 'X' ? &drag->lock_x : &drag->lock_y;
-    bool on = !*lock;
-    drag->lock_x = drag->lock_y = false;
-    *lock = on;
+    drag->lock_x = key == 'X' && !drag->lock_x;
+    drag->lock_y = key == 'Y' && !drag->lock_y;
     drag->stale = true;
     return true;
 }

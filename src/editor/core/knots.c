@@ -103,11 +103,8 @@ void core_toggle_settles(struct core *core)
         any = any || !knot->still;
         all = all && (knot->settles || knot->still);
     }
-    if (!any) {
-        if (selected_count(core) > 0) core_message(core, false, "A still knot has no value to settle at.");
-        return;
-    }
-    if (!core_step(core, all ? "Settle off" : "Settle here", 0)) return;
+    if (!any && selected_count(core) > 0) core_message(core, false, "A still knot has no value to settle at.");
+    if (!any || !core_step(core, all ? "Settle off" : "Settle here", 0)) return;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         struct knot knot = *knot_at(core->document, at);
         knot.settles = !all;

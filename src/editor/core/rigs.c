@@ -540,8 +540,6 @@ void characters_clean_paint(struct core *core)
 
 // --- pins
 
-enum pin_nudge { NUDGE_PLACE, NUDGE_FRAME };
-
 static const double RESOLUTION = 1e-4; ///< metres, of saved positions
 
 const struct pin *pins_next(const struct document *document, struct pin_place *place)
@@ -573,17 +571,11 @@ uint32_t pins_color(const struct document *document, int rig)
     return spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
 }
 
-/// Selects a pin and deselects knots.
-static void pins_select(struct core *core, unsigned id)
-{
-    selection_clear(&core->focus.selection);
-    core->focus.pin = id;
-}
-
 void pins_visit(struct core *core, const struct pin *pin)
 {
     playback_seek(core, pin->frame);
-    pins_select(core, pin->id);
+    selection_clear(&core->focus.selection);
+    core->focus.pin = pin->id;
 }
 
 double pins_frame_here(const struct core *core, int rig)
@@ -618,7 +610,8 @@ bool pins_put(struct core *core, int rig, int point, double frame, const double 
     if (there >= 0) pin = document->rigs[rig]->pins[there];
     for (int k = 0; k < 3; k++) pin.to[k] = to[k];
     if (!pins_set(core->document, rig, &pin, &core->step.error)) return false;
-    pins_select(core, document->rigs[rig]->pins[pins_find(document, document->rigs[rig], point, sample)].id);
+    selection_clear(&core->focus.selection);
+    core->focus.pin = document->rigs[rig]->pins[pins_find(document, document->rigs[rig], point, sample)].id;
     pins_tell(core, rig);
     return true;
 }
@@ -631,10 +624,10 @@ void pins_put_here(struct core *core, int rig, int point, const double to[3])
     playback_seek(core, frame);
 }
 
-/// Moves the selected pin in a step. Equal nudges are one step. false if it fails.
-static bool move_selected(struct core *core, int rig, const struct pin *moved, const char *label, enum pin_nudge kind)
+/// Moves the selected pin in a step. Moves with the same label are one step. false if it fails.
+static bool move_selected(struct core *core, int rig, const struct pin *moved, const char *label)
 {
-    const uint64_t merge = hash_word(hash_word(HASH_START, (uint64_t)kind), moved->id);
+    const uint64_t merge = hash_word(hash_bytes(HASH_START, label, strlen(label)), moved->id);
     const bool done = core_step(core, label, merge) && pins_set(core->document, rig, moved, &core->step.error);
     if (done) pins_tell(core, rig);
     return done;
@@ -647,7 +640,7 @@ void pins_nudge(struct core *core, const double by[3])
     if (!pin) return;
     struct pin moved = *pin;
     for (int k = 0; k < 3; k++) moved.to[k] += by[k];
-    move_selected(core, rig, &moved, "Nudge pin", NUDGE_PLACE);
+    move_selected(core, rig, &moved, "Nudge pin");
 }
 
 void pins_retime(struct core *core, int frames)
@@ -663,7 +656,7 @@ void pins_retime(struct core *core, int frames)
         sample = document_sample(document, moved.frame);
         if (sample < 0 || sample > pins_last_sample(document, document->rigs[rig])) return;
     } while (pins_find(document, document->rigs[rig], pin->point, sample) >= 0);
-    if (move_selected(core, rig, &moved, "Move pin in time", NUDGE_FRAME)) playback_seek(core, moved.frame);
+    if (move_selected(core, rig, &moved, "Move pin in time")) playback_seek(core, moved.frame);
 }
 
 /// Orders by frame, then id.

@@ -315,12 +315,3 @@ const struct rig *take_rig(const struct core *core, int rig)
     }
     return NULL;
 }
-
-void take_explain(struct core *core)
-{
-    if (!core->take.document) {
-        core_message(core, false, "Nothing is kept yet: Shift+K keeps the scene as before.");
-    } else if (take_is_shown(core) && !take_is_posed(core)) {
-        core_message(core, false, "Only the curves show before: the rigs or frames have changed since.");
-    }
-}

@@ -927,11 +927,9 @@ void curves_remedy_first(struct curves *curves, struct core *core, int unused)
 {
     (void)unused;
     warnings_update(curves, core);
-    if (curves->warnings.count > 0) {
-        press_warning(curves, core, &(struct hover){.handle = 0}, NULL);
-    } else {
-        core_message(core, false, "This spline has no warnings.");
-    }
+    const bool any = curves->warnings.count > 0;
+    if (any) press_warning(curves, core, &(struct hover){.handle = 0}, NULL);
+    if (!any) core_message(core, false, "This spline has no warnings.");
 }
 
 static const float SIZE = 7; ///< pixels: half a marker

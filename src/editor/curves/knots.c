@@ -296,8 +296,8 @@ static void place_pivot(struct curves *curves, const struct core *core)
     const double side[2] = {frames[left], values[!top]};
     scaling->edge[0] = frames[!left];
     scaling->edge[1] = values[top];
-    for (int i = 0; held && i < core->step.originals.count;
-         i++) { // the knot at the held edge stays under the pointer
+    // The knot at the held edge stays under the pointer.
+    for (int i = 0; held && i < core->step.originals.count; i++) {
         const struct original *original = &core->step.originals.list[i];
         const struct value_map map = normal_map(curves, core, original->spline);
         if (map.scale * original->value + map.offset != scaling->edge[1]) continue;
@@ -322,20 +322,18 @@ static const char *pivot_name(const struct scaling *scaling, enum pivot pivot)
     return time_only && pivot == PIVOT_EQUILIBRIUM ? names[PIVOT_MIDDLE] : names[pivot];
 }
 
-/// "time × 1.2 (what stopped it)"
-static void say_factor(char out[128], const char *what, double factor, const char *stopped)
-{
-    snprintf(out, 128, *stopped ? "%s × %.3g (%s)" : "%s × %.3g", what, factor, stopped);
-}
-
 static void say_scale(struct curves *curves, const struct core *core)
 {
     struct scaling *scaling = &curves->scaling;
     const struct drag *drag = &core->input.drag;
     const char *keys = scaling->handle < 0 ? "X, Y;  Enter, Esc" : box_corner(scaling->handle) ? "X, Y;  Esc" : "Esc";
     char time[128] = "", value[128] = "";
-    if (!drag->lock_y) say_factor(time, "time", scaling->by.time, scaling->stopped[0]);
-    if (!drag->lock_x) say_factor(value, "value", scaling->by.value, scaling->stopped[1]);
+    const char *why_time = scaling->stopped[0], *why_value = scaling->stopped[1];
+    if (!drag->lock_y)
+        snprintf(time, sizeof time, *why_time ? "time × %.3g (%s)" : "time × %.3g", scaling->by.time, why_time);
+    if (!drag->lock_x)
+        snprintf(value, sizeof value, *why_value ? "value × %.3g (%s)" : "value × %.3g", scaling->by.value,
+                 why_value);
     snprintf(scaling->sentence, sizeof scaling->sentence, "%s%sScale %s%s%s about the %s.  P: the %s;  %s",
              scaling->typed, scaling->typed[0] ? "_   " : "", time, *time && *value ? ", " : "", value,
              pivot_name(scaling, scaling->pivot), pivot_name(scaling, next_pivot(scaling)), keys);
@@ -510,16 +508,21 @@ static void scale_show(void *room, struct core *core)
 static const struct drag_owner scale_owner = {
     .cursor = CURSOR_MOVE, .apply = scale_knots, .event = scale_event, .end = end_knots, .show = scale_show};
 
-/// `handle`: of the selection box, or -1 for S.
-static void begin_scale(struct curves *curves, struct core *core, enum pivot pivot, int handle)
+/// Scales the collected knots. `handle`: of the selection box, or -1 for S.
+static void begin_scale(struct curves *curves, struct core *core, const struct event *event, enum pivot pivot,
+                        int handle)
 {
     struct scaling *scaling = &curves->scaling;
     const struct evaluation *evaluation = core->evaluation;
     double frames[2], values[2];
+    drag_begin(core, &scale_owner, curves, "Scale knots", event);
+    core->input.drag.lock_x = handle >= 0 && box_row(handle) == 0;
+    core->input.drag.lock_y = handle >= 0 ? box_column(handle) == 0 : pivot == PIVOT_EQUILIBRIUM;
     *scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}};
     curves->knot_drag = (struct knot_drag){0};
     core->message.text[0] = 0;
-    core->input.hover = (struct hover){.thing = NULL};
+    core->input.hover =
+        (struct hover){.thing = handle >= 0 ? &thing_box : NULL, .spline = core->focus.active, .handle = handle};
 
     // The equilibria before any edit changes them.
     measure_selection(curves, core, frames, values);
@@ -546,23 +549,15 @@ void curves_scale(struct curves *curves, struct core *core, int about_equilibriu
         return;
     }
     const struct event event = {.button = BUTTON_LEFT, .x = core->input.pointer_x, .y = core->input.pointer_y};
-    drag_begin(core, &scale_owner, curves, "Scale knots", &event);
-    core->input.drag.lock_y = about_equilibrium;
     const enum pivot pivot = core->step.originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
-    begin_scale(curves, core, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
+    begin_scale(curves, core, &event, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
 }
 
 /// Starts scaling by a handle: about the opposite side or, with Alt, about the equilibrium.
 static void press_box(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
-    struct curves *curves = room;
-    const int handle = hover->handle;
     core_collect(core, false);
-    drag_begin(core, &scale_owner, curves, "Scale knots", event);
-    core->input.drag.lock_x = box_row(handle) == 0;
-    core->input.drag.lock_y = box_column(handle) == 0;
-    begin_scale(curves, core, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
-    core->input.hover = (struct hover){.thing = &thing_box, .spline = core->focus.active, .handle = handle};
+    begin_scale(room, core, event, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, hover->handle);
 }
 
 static const float BOX_PAD = 12;     ///< from the outermost knots: outside their own targets

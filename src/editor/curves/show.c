@@ -41,17 +41,14 @@ static bool is_band(const struct curve_cache *cache, const polyline line)
     return cache->by > 1 && 2 * swings > cache->count;
 }
 
-/// A band's point covers the columns on both sides. Otherwise a swing two columns long would vanish.
-static double widened(const struct curve_cache *cache) { return 2 * cache->by; }
-
-/// A spline's total; as a band, maximum and minimum around each column.
+/// A spline's total; as a band, maximum and minimum around each column and its neighbours, or a swing two columns long would vanish.
 static void draw_total(const struct curves *curves, const struct core *core, int spline, bool band, polyline line)
 {
     const struct curve_cache *cache = &curves->cache;
     const struct value_map map = normal_map(curves, core, spline);
     for (int c = 0; c < cache->count; c++) {
         const double middle = band ? cache->first + cache->by * c : cache->position[c];
-        const double by = band ? widened(cache) : cache->by;
+        const double by = band ? 2 * cache->by : cache->by;
         const double position = outermost(core->evaluation, spline, middle, by, c % 2);
         const wiggly_value v = evaluation_at(core->evaluation, spline, position);
         line[c][0] = curves_x(core, frame_of(core->document, band ? middle : position));
@@ -115,7 +112,7 @@ static void draw_active(struct curves *curves, const struct core *core)
     draw_total(curves, core, core->focus.active, true, cache->re);
 
     // Im x as a band, from at most about sixteen samples a column.
-    const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = evaluation->samples - 1;
+    const double reach = cache->by, step = 1 + floor(reach / 8), last = evaluation->samples - 1;
     for (int c = 0; c < cache->count; c++) {
         const double middle = cache->first + cache->by * c;
         double most = c % 2 ? -INFINITY : INFINITY;

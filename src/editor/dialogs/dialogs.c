@@ -130,9 +130,15 @@ bool dialogs_ask(struct dialogs *dialogs)
     return true;
 }
 
-/// A question of the dialogs with these answers and still without a text.
-#define QUESTION(list, what)                                                                                         \
-    ((struct question){.answers = (list), .count = sizeof(list) / sizeof(list)[0], .of = dialogs, .answered = (what)})
+/// Asks a question of the dialogs; the caller fills in its text.
+static struct question *dialog_ask(struct dialogs *dialogs, enum dialog_kind kind, const struct answer *answers,
+                                   int count, void (*answered)(void *dialogs, int answer))
+{
+    struct question *question = &dialogs->dialog.question;
+    *question = (struct question){.answers = answers, .count = count, .of = dialogs, .answered = answered};
+    dialog_open(dialogs, kind, "");
+    return question;
+}
 
 enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
 
@@ -155,17 +161,15 @@ void dialogs_leave(struct dialogs *dialogs, const struct request *after)
     static const struct answer answers[] = {
         {"dialog.save", "Save", 'S'}, {"dialog.discard", "Discard", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
     struct core *core = dialogs->core;
-    struct question *question = &dialogs->dialog.question;
     if (history_is_saved(core->history)) {
         dialog_go_on(dialogs, after);
         return;
     }
-    *question = QUESTION(answers, answer_unsaved);
+    struct question *question = dialog_ask(dialogs, DIALOG_UNSAVED, answers, 3, answer_unsaved);
+    dialogs->dialog.after = *after;
     snprintf(question->title, sizeof question->title, "%s has unsaved changes", core_title(core));
     snprintf(question->note, sizeof question->note,
              "Save them, or they will be lost. S saves, D discards, Esc cancels.");
-    dialog_open(dialogs, DIALOG_UNSAVED, "");
-    dialogs->dialog.after = *after;
 }
 
 enum changed_answer { CHANGED_MINE, CHANGED_THEIRS, CHANGED_SAVE_AS, CHANGED_CANCEL };
@@ -188,14 +192,12 @@ bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving)
                                             {"dialog.other", "Save as", 'S'},
                                             {"dialog.cancel", "Cancel", 'C'}};
     struct dialog *dialog = &dialogs->dialog;
-    struct question *question = &dialog->question;
     if (!saving && (dialogs->core->input.drag.owner || dialogs_cover(dialogs))) return false;
-    *question = QUESTION(answers, answer_changed);
+    struct question *question = dialog_ask(dialogs, DIALOG_CHANGED, answers, 4, answer_changed);
     snprintf(question->title, sizeof question->title, "%.255s has changed on the disk", name);
     snprintf(question->note, sizeof question->note,
              "Keep mine replaces that file %s. Take theirs opens it; undo brings yours back. Save as keeps both.",
              saving ? "now" : "at the next save");
-    dialog_open(dialogs, DIALOG_CHANGED, "");
     dialog->saving = saving;
     dialog->choice = CHANGED_SAVE_AS;
     return true;
@@ -212,16 +214,13 @@ void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer
 {
     static const struct answer answers[] = {
         {"dialog.recover", "Recover", 'R'}, {"dialog.discard", "Discard", 'D'}, {"dialog.later", "Later", 'L'}};
-    struct question *question = &dialogs->dialog.question;
     char others[64] = "";
-    if (offer->others > 0) {
+    if (offer->others > 0)
         snprintf(others, sizeof others, "  %d older one%s after this.", offer->others, offer->others > 1 ? "s" : "");
-    }
-    *question = QUESTION(answers, answer_recovery);
+    struct question *question = dialog_ask(dialogs, DIALOG_RECOVER, answers, 3, answer_recovery);
     snprintf(question->title, sizeof question->title, "Recover unsaved work on %s?", offer->name);
     snprintf(question->note, sizeof question->note, "Last kept on %s. Later asks again at the next start.%s",
              offer->when, others);
-    dialog_open(dialogs, DIALOG_RECOVER, "");
 }
 
 enum { STEM_MORE = 32 }; ///< bytes that an extension may add
