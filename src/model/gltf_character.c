@@ -1,4 +1,4 @@
-/// Makes and frees characters; reads characters and surfaces from glTF files, and writes characters. A character is the first mesh with morph
+/// Makes and frees characters; reads them from glTF files, and writes them. A character is the first mesh with morph
 /// targets, else the first with triangles.
 #include "base/file.h"
 #include "model/figure.h"
@@ -83,8 +83,6 @@ void character_free(struct character *c)
 
 // --- of glTF files
 
-enum { COUNT_LIMIT = 1 << 28 };
-
 static const struct gltf_mesh *choose_mesh(const struct gltf *gltf)
 {
     const struct gltf_mesh *first = NULL;
@@ -102,74 +100,6 @@ static int first_vertex(const struct gltf_part *part, int *next)
     const int first = part->shared ? 0 : *next;
     *next += part->shared ? 0 : part->vertex_count;
     return first;
-}
-
-// --- surface
-
-/// The base colour and, if it takes at most `room`, the bytes of its picture.
-static bool copy_look(const struct gltf *gltf, int number, size_t room, struct looks_material *look)
-{
-    const struct gltf_material *material = &gltf->materials[number];
-    for (int k = 0; k < 4; k++) look->color[k] = glm_clamp(material->color[k], 0, 1);
-    const struct gltf_image *image = material->image >= 0 ? &gltf->images[material->image] : NULL;
-    if (look->image || !image || image->size > room || !looks_image_kind(image->bytes, image->size)) return true;
-    look->image = malloc(image->size);
-    if (!look->image) return false;
-    memcpy(look->image, image->bytes, image->size);
-    look->image_size = image->size;
-    return true;
-}
-
-/// All parts of a mesh as one surface, with the materials and their PNG or JPEG pictures. False if memory is short.
-static bool make_surface(const struct gltf *gltf, const struct gltf_mesh *mesh, struct surface *s)
-{
-    struct looks *looks = &s->looks;
-    size_t vertices = 0, indices = 0, room = LOOKS_IMAGES_LIMIT;
-    int next = 0, index = 0;
-    bool uv = false;
-    for (int p = 0; p < mesh->part_count; p++) {
-        vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
-        indices += (size_t)mesh->parts[p].index_count;
-        uv = uv || mesh->parts[p].uv;
-    }
-    if (vertices > COUNT_LIMIT || indices > COUNT_LIMIT) return false;
-    s->vertex_count = (int)vertices;
-    s->index_count = (int)indices;
-    s->position = calloc(vertices, sizeof *s->position);
-    s->color = calloc(vertices, sizeof *s->color);
-    s->indices = calloc(indices, sizeof *s->indices);
-    looks->material = calloc(indices / 3, sizeof *looks->material);
-    looks->joined = calloc(indices / 3, sizeof *looks->joined);
-    looks->uv = uv ? calloc(vertices, sizeof *looks->uv) : NULL;
-    looks->uv_count = uv ? (int)vertices : 0;
-    looks->materials = calloc((size_t)gltf->material_count + 1, sizeof *looks->materials);
-    if (!s->position || !s->color || !s->indices || !looks->material || !looks->joined || (uv && !looks->uv) ||
-        !looks->materials)
-        return false;
-
-    for (int m = 0; m < gltf->material_count; m++) {
-        struct looks_material *look = &looks->materials[looks->material_count++];
-        look->name = strdup(gltf->materials[m].name);
-        if (!look->name || !copy_look(gltf, m, room, look)) return false;
-        room -= look->image_size;
-    }
-    for (int p = 0; p < mesh->part_count; p++) {
-        const struct gltf_part *part = &mesh->parts[p];
-        const int base = first_vertex(part, &next);
-        for (int i = 0; !part->shared && i < part->vertex_count; i++) {
-            memcpy(s->position[base + i], part->position[i], sizeof *s->position);
-            if (part->uv) memcpy(looks->uv[base + i], part->uv[i], sizeof *looks->uv);
-            for (int k = 0; k < 3; k++) s->color[base + i][k] = part->color ? part->color[i][k] : 1;
-        }
-        for (int i = 0; i < part->index_count; i++, index++) {
-            s->indices[index] = (uint32_t)base + part->indices[i];
-            if (i % 3 > 0) continue;
-            looks->material[index / 3] = part->material >= 0 ? (uint32_t)part->material : LOOKS_NONE;
-            looks->joined[index / 3] = gltf_joins(part, i);
-        }
-    }
-    looks_drop_unused(looks, s->index_count / 3);
-    return true;
 }
 
 // --- coordinates
@@ -294,7 +224,7 @@ bool character_from_gltf(const struct gltf *gltf, struct character *c, struct er
     if (!made) return false;
 
     struct surface surface = {0};
-    made = make_surface(gltf, mesh, &surface) && character_create(c, &surface, (int)coordinates);
+    made = surface_of_mesh(gltf, mesh, &surface) && character_create(c, &surface, (int)coordinates);
     surface_free(&surface);
     for (int p = 0; made && p < mesh->part_count; p++) {
         const struct gltf_part *part = &mesh->parts[p];
@@ -336,61 +266,6 @@ bool character_from_gltf(const struct gltf *gltf, struct character *c, struct er
     made = (made && place_as_node(gltf, mesh, c)) || fail_no_memory(error, gltf->path);
     if (!made) character_free(c);
     return made;
-}
-
-// --- everything a file shows at rest, as one surface
-
-bool gltf_surface_read(struct words *words, struct surface_builder *b)
-{
-    struct gltf gltf;
-    struct gltf_pose pose;
-    if (!gltf_read_stored(words->path, &gltf, words->error)) return false;
-    const bool posed = gltf_pose_create(&gltf, &pose); // at rest
-    bool whole = posed;
-    for (int n = 0; whole && n < gltf.node_count; n++) {
-        const int count = gltf_vertex_count(&gltf, n);
-        if (count == 0) continue;
-        float(*position)[3] = malloc((size_t)count * sizeof *position);
-        whole = position;
-        if (!whole) break;
-        gltf_pose_vertices(&gltf, &pose, n, position, NULL);
-        const struct gltf_mesh *mesh = &gltf.meshes[gltf.nodes[n].mesh];
-        for (int p = 0, next = 0; p < mesh->part_count; next += mesh->parts[p++].vertex_count) {
-            const struct gltf_part *part = &mesh->parts[p];
-            const int first = b->surface->vertex_count, first_uv = b->surface->looks.uv_count;
-            b->material = part->material >= 0 ? builder_material(b, gltf.materials[part->material].name) : LOOKS_NONE;
-            if (b->material != LOOKS_NONE) {
-                const size_t used = looks_image_bytes(&b->surface->looks);
-                const size_t room = used < LOOKS_IMAGES_LIMIT ? LOOKS_IMAGES_LIMIT - used : 0;
-                struct looks_material *look = &b->surface->looks.materials[b->material];
-                b->failed = b->failed || !copy_look(&gltf, part->material, room, look);
-            }
-            for (int i = 0; i < part->vertex_count && !b->failed; i++) {
-                const float *at = position[next + i];
-                builder_vertex(b, (const double[]){(double)at[0], (double)at[1], (double)at[2]});
-                if (part->color) {
-                    const float *c = part->color[i];
-                    const float rgb[3] = {glm_clamp(c[0], 0, 1), glm_clamp(c[1], 0, 1), glm_clamp(c[2], 0, 1)};
-                    builder_linear_color(b, rgb);
-                }
-                if (part->uv) builder_uv(b, (double)part->uv[i][0], (double)part->uv[i][1]);
-            }
-            for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
-                const uint32_t *corner = part->indices + i;
-                const bool joined = gltf_joins(part, i);
-                if (!joined) builder_end_polygon(b);
-                for (int k = joined ? 2 : 0; k < 3; k++)
-                    builder_corner(b, (uint32_t)first + corner[k],
-                                   part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);
-            }
-            builder_end_polygon(b);
-        }
-        free(position);
-    }
-    b->failed = !whole || b->failed;
-    if (posed) gltf_pose_free(&pose);
-    gltf_free(&gltf);
-    return true;
 }
 
 // --- writing

@@ -245,8 +245,6 @@ bool gltf_read_materials(struct gltf_reader *r)
         const json_t *cutoff = json_object_get(json, "alphaCutoff");
         *material = (struct gltf_material){.color = {1, 1, 1, 1}, .image = -1, .sampler = usual};
         r->uvs[i] = (struct gltf_uv){.scale = {1, 1}};
-        material->name = gltf_name(r, json, "material", i);
-        if (!material->name) return false;
         const json_t *metal = json_object_get(json, "pbrMetallicRoughness");
         const json_t *maps = json_object_get(metal, "metallicRoughnessTexture");
         material->shines = metal && !maps;

@@ -802,7 +802,9 @@ static bool read_all(struct gltf_reader *r)
     r->pixel_room = PIXEL_ROOM + r->file.room;
     r->gltf->path = gltf_text(r, r->file.path);
     r->gltf->id = gltf_new_id();
-    if (!r->gltf->path || !gltf_read_materials(r) || !read_meshes(r) || !name_by_shapes(r) || !read_nodes(r))
+    if (!r->gltf->path || !gltf_read_materials(r) ||
+        !name_all(r, gltf_array(r, "materials"), "material", false, r->gltf->materials, sizeof *r->gltf->materials) ||
+        !read_meshes(r) || !name_by_shapes(r) || !read_nodes(r))
         return false;
     const size_t limit = r->file.room < VERTEX_LIMIT ? r->file.room : VERTEX_LIMIT;
     for (int n = 0; n < r->gltf->node_count; n++) total += (size_t)gltf_vertex_count(r->gltf, n);

@@ -1,9 +1,13 @@
-/// Reads surfaces of any format, and writes OBJ files: OBJ with its materials, PLY, STL and OFF.
+/// Builds surfaces vertex by vertex and polygon by polygon from files: OBJ with its materials, PLY, STL, OFF and glTF; and writes OBJ files.
 #include "base/file.h"
+#include "base/names.h"
 #include "base/npy.h"
 #include "base/png.h"
 #include "base/progress.h"
+#include "model/adjacency.h"
+#include "model/gltf.h"
 #include "model/surface.h"
+#include "model/vector.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,58 +15,307 @@
 #include <string.h>
 #include <strings.h>
 
-// --- OBJ, and the materials that it names
+// --- a surface that grows while a file is read
 
-enum { TEXT_LIMIT = 16 << 20, SHOWN_MAX = 24, LIBRARY_NAME = 256 };
-enum { TELLING = 1 << 16 }; ///< lines between two progress reports
+/// All zero but `surface` and `material`, LOOKS_NONE, at first.
+struct surface_builder {
+    struct surface *surface;                                                     ///< an empty one at first
+    uint32_t material;                                                           ///< of the next triangles
+    int vertices, colors, uvs, indices, corners, materials_of, joins, materials; ///< there is room for
+    int polygon;                                                                 ///< corners of the open one
+    uint32_t first[2], last[2]; ///< its first and its newest corner: vertex, texture coordinates
+    bool failed;                ///< memory ran short and something is missing; stays set
+};
 
-/// A text being read, line by line.
-struct obj_lines {
-    char *next, *line; ///< `line` ends with a NUL, without comments and with continuations joined
-    int number;        ///< from 1
-    bool joins;        ///< a line that ends in a backslash continues on the next
-    const char *path;  ///< and what takes an error of the file
+enum { COUNT_LIMIT = 1 << 28, COLOR_LIMIT = 1000 };
+
+/// array[count] = *value, in an array that grows. The caller counts. After running out of memory nothing is added.
+static bool put(struct surface_builder *b, void *array, int count, int *capacity, const void *value, size_t size)
+{
+    char *block;
+    if (b->failed) return false;
+    memcpy(&block, array, sizeof block);
+    if (count == *capacity) {
+        const int wanted = *capacity ? 2 * *capacity : 256;
+        block = count < COUNT_LIMIT ? realloc(block, size * (size_t)wanted) : NULL;
+        b->failed = !block;
+        if (b->failed) return false;
+        *capacity = wanted;
+        memcpy(array, &block, sizeof block);
+    }
+    memcpy(block + (size_t)count * size, value, size);
+    return true;
+}
+
+/// Colours the newest vertex; those before the first coloured one become white, and so do later ones without.
+static void builder_linear_color(struct surface_builder *b, const float rgb[3])
+{
+    static const float white[3] = {1, 1, 1};
+    struct surface *s = b->surface;
+    if (s->vertex_count == 0) return;
+    for (int i = s->color ? s->vertex_count - 1 : 0; i < s->vertex_count; i++) {
+        const float *color = i + 1 < s->vertex_count ? white : rgb;
+        if (!put(b, &s->color, i, &b->colors, color, sizeof *s->color)) return;
+    }
+}
+
+/// The first of three numbers that is far outside the range of colours (0 … 1), which could not be written and read again; NULL: none.
+static const double *builder_wrong_color(const double srgb[3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (!(fabs(srgb[k]) <= COLOR_LIMIT)) return &srgb[k];
+    }
+    return NULL;
+}
+
+static void builder_color(struct surface_builder *b, const double srgb[3])
+{
+    float rgb[3];
+    for (int k = 0; k < 3; k++) rgb[k] = srgb_to_linear((float)srgb[k]);
+    builder_linear_color(b, rgb);
+}
+
+static void builder_vertex(struct surface_builder *b, const double position[3])
+{
+    static const float white[3] = {1, 1, 1};
+    struct surface *s = b->surface;
+    const float p[3] = {(float)position[0], (float)position[1], (float)position[2]};
+    if (!put(b, &s->position, s->vertex_count, &b->vertices, p, sizeof p)) return;
+    s->vertex_count++;
+    if (s->color) builder_linear_color(b, white);
+}
+
+static void builder_uv(struct surface_builder *b, double u, double v)
+{
+    struct looks *looks = &b->surface->looks;
+    const float uv[2] = {(float)u, (float)v};
+    if (put(b, &looks->uv, looks->uv_count, &b->uvs, uv, sizeof uv)) looks->uv_count++;
+}
+
+/// The next corner of the open polygon, which becomes a fan of triangles. `uv` may be LOOKS_NONE.
+static void builder_corner(struct surface_builder *b, uint32_t vertex, uint32_t uv)
+{
+    const uint32_t corner[2] = {vertex, uv}, *const corners[3] = {b->first, b->last, corner};
+    struct surface *s = b->surface;
+    struct looks *looks = &s->looks;
+    const uint8_t joined = b->polygon > 2;
+    bool added = b->polygon >= 2;
+    for (int k = 0; k < 3; k++) {
+        const int at = s->index_count + k;
+        added = added && put(b, &s->indices, at, &b->indices, corners[k], sizeof(uint32_t)) &&
+                put(b, &looks->corner, at, &b->corners, corners[k] + 1, sizeof(uint32_t));
+    }
+    if (added && put(b, &looks->material, s->index_count / 3, &b->materials_of, &b->material, sizeof b->material) &&
+        put(b, &looks->joined, s->index_count / 3, &b->joins, &joined, sizeof joined))
+        s->index_count += 3;
+    memcpy(b->polygon ? b->last : b->first, corner, sizeof corner);
+    b->polygon++;
+}
+
+/// Closes the polygon and returns how many corners it had.
+static int builder_end_polygon(struct surface_builder *b)
+{
+    const int corners = b->polygon;
+    b->polygon = 0;
+    return corners;
+}
+
+/// The material of that name; a new one is white.
+static uint32_t builder_material(struct surface_builder *b, const char *name)
+{
+    struct looks *looks = &b->surface->looks;
+    const struct looks_material material = {.name = name_from(name, strlen(name)), .color = {1, 1, 1, 1}};
+    int m = 0;
+    while (m < looks->material_count && strcmp(looks->materials[m].name, material.name) != 0) m++;
+    if (m == looks->material_count &&
+        put(b, &looks->materials, looks->material_count, &b->materials, &material, sizeof material))
+        return (uint32_t)looks->material_count++;
+    free(material.name);
+    b->failed |= m == looks->material_count;
+    return b->failed ? LOOKS_NONE : (uint32_t)m;
+}
+
+/// Merges vertices at the same place, which have no colours.
+static void builder_merge(struct surface_builder *b)
+{
+    struct surface *s = b->surface;
+    const size_t count = (size_t)s->vertex_count;
+    struct spot *spots = malloc((count + 1) * sizeof *spots);
+    uint32_t *name =
+        malloc((count + 1) * sizeof *name); // first each vertex's earliest at its place, then that one's new number
+    if (spots && name) {
+        spots_sort((const float(*)[3])s->position, s->vertex_count, spots);
+        spots_first(spots, s->vertex_count, name);
+        s->vertex_count = 0;
+        for (size_t i = 0; i < count; i++) {
+            const bool is_first = name[i] == (uint32_t)i;
+            if (is_first) memmove(s->position[s->vertex_count], s->position[i], sizeof *s->position);
+            name[i] = is_first ? (uint32_t)s->vertex_count++ : name[name[i]];
+        }
+        for (int i = 0; i < s->index_count; i++) s->indices[i] = name[s->indices[i]];
+    } else {
+        b->failed = true;
+    }
+    free(spots);
+    free(name);
+}
+
+/// Drops triangles that name a vertex twice, texture coordinates without corners, and materials without triangles. Fails if no vertices or no
+/// triangles remain; `kind` is for the message, as in "a PLY file". On failure the surface is empty.
+static bool builder_finish(struct surface_builder *b, const char *path, const char *kind, struct error *error)
+{
+    struct surface *s = b->surface;
+    struct looks *looks = &s->looks;
+    const char *missing = s->vertex_count == 0 ? "vertices" : s->index_count == 0 ? "faces" : NULL;
+    int kept = 0;
+    bool begun = false,
+         textured = false; // whether a triangle of the polygon was kept: the rest stays one if it is still a fan
+    for (int t = 0; !b->failed && t < s->index_count / 3; t++) {
+        const uint32_t *corner = s->indices + 3 * t;
+        begun = begun && looks->joined[t];
+        if (triangle_repeats(corner)) continue;
+        looks->joined[kept] =
+            begun && corner[1] == s->indices[3 * kept - 1] && looks->corner[3 * t + 1] == looks->corner[3 * kept - 1];
+        looks->material[kept] = looks->material[t];
+        memmove(s->indices + 3 * kept, corner, 3 * sizeof *s->indices);
+        memmove(looks->corner + 3 * kept, looks->corner + 3 * t, 3 * sizeof *looks->corner);
+        begun = true;
+        kept++;
+    }
+    s->index_count = 3 * kept;
+    if (b->failed || missing || kept == 0) {
+        surface_free(s);
+        if (b->failed) return fail_no_memory(error, path);
+        if (missing) return fail(error, ERROR_INPUT, "%s: expected %s with %s, got none", path, kind, missing);
+        return fail(error, ERROR_INPUT, "%s: expected %s with faces of three different vertices, got others alone",
+                    path, kind);
+    }
+
+    for (int i = 0; i < s->index_count; i++) textured = textured || looks->corner[i] != LOOKS_NONE;
+    if (!textured) {
+        free(looks->uv);
+        free(looks->corner);
+        looks->uv = NULL;
+        looks->corner = NULL;
+        looks->uv_count = 0;
+    }
+    bool dressed = false, polygons = false;
+    for (int t = 0; t < kept; t++) {
+        dressed = dressed || looks->material[t] < (uint32_t)looks->material_count;
+        polygons = polygons || looks->joined[t];
+    }
+    if (!dressed) {
+        free(looks->material);
+        looks->material = NULL;
+    }
+    if (!polygons) {
+        free(looks->joined);
+        looks->joined = NULL;
+    }
+    return true;
+}
+
+// --- the words of a text
+
+struct words {
+    const char *path;
+    char *at;         ///< ends in a NUL
+    const char *end;  ///< where that NUL is
+    int line;         ///< from 1
+    const char *over; ///< what an error says where no word follows
     struct error *error;
 };
 
-static char *obj_skip_space(char *at) { return at + strspn(at, " \t\r"); }
+enum { SHOWN_MAX = 24 };
 
-/// Reads the next line; false at the end of the text.
-static bool obj_next_line(struct obj_lines *l)
+static void words_skip(struct words *w) { w->at += strcspn(w->at, " \t\r\n"); }
+static void words_skip_line(struct words *w) { w->at += strcspn(w->at, "\n"); }
+
+/// Goes to the next word, past comments from "#" to the end of a line; false at the end of the text.
+static bool words_more(struct words *w)
 {
-    if (!*l->next) return false;
-    l->line = l->next;
-    l->number++;
-    for (char *end = l->line;; end++) {
+    for (;; w->at++) {
+        if (*w->at == '#') words_skip_line(w);
+        if (!*w->at) return false;
+        if (*w->at == '\n') w->line++;
+        if (!strchr(" \t\r\n\f\v", *w->at)) return true;
+    }
+}
+
+/// "file:line: expected …, got …"
+static bool words_expected(struct words *w, const char *what)
+{
+    if (!words_more(w))
+        return fail(w->error, ERROR_INPUT, "%s:%d: expected %s, got %s", w->path, w->line, what, w->over);
+    int shown = (int)strcspn(w->at, " \t\r\n");
+    if (shown > SHOWN_MAX) shown = SHOWN_MAX;
+    return fail(w->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", w->path, w->line, what, shown, w->at);
+}
+
+/// Takes the next word if it is this one, in capitals or not.
+static bool words_take(struct words *w, const char *word)
+{
+    const size_t length = strlen(word);
+    if (!words_more(w) || strncasecmp(w->at, word, length) != 0 || !strchr(" \t\r\n", w->at[length])) return false;
+    w->at += length;
+    return true;
+}
+
+static bool words_number(struct words *w, const char *what, double *number)
+{
+    if (!words_more(w)) return words_expected(w, what);
+    char *end;
+    *number = strtod(w->at, &end);
+    if (end == w->at || !strchr(" \t\r\n", *end) || !isfinite((float)*number)) return words_expected(w, what);
+    w->at = end;
+    return true;
+}
+
+static bool words_integer(struct words *w, const char *what, long least, long most, long *number)
+{
+    if (!words_more(w)) return words_expected(w, what);
+    char *end;
+    *number = strtol(w->at, &end, 10);
+    if (end == w->at || !strchr(" \t\r\n", *end) || *number < least || *number > most) return words_expected(w, what);
+    w->at = end;
+    return true;
+}
+
+// --- OBJ, and the materials that it names
+
+enum { TEXT_LIMIT = 16 << 20, LIBRARY_NAME = 256 };
+enum { TELLING = 1 << 16 }; ///< lines between two progress reports
+
+/// Lets the words be those of the line at `next`, and goes to the one after it; false at the end of the text. The line ends with a NUL,
+/// without its comment. `joins`: a line that ends in a backslash continues on the next.
+static bool obj_next_line(struct words *w, char **next, bool joins)
+{
+    if (!**next) return false;
+    char *const line = w->at = *next;
+    w->line++;
+    for (char *end = line;; end++) {
         end += strcspn(end, "\n");
-        l->next = *end ? end + 1 : end;
-        char *last = end > l->line && end[-1] == '\r' ? end - 1 : end;
-        bool joined = l->joins && *end && last > l->line && last[-1] == '\\';
+        *next = *end ? end + 1 : end;
+        char *last = end > line && end[-1] == '\r' ? end - 1 : end;
+        bool joined = joins && *end && last > line && last[-1] == '\\';
         if (!joined) {
             *end = '\0';
             break;
         }
         memset(last - 1, ' ', (size_t)(end - last) + 2);
-        l->number++;
+        w->line++;
     }
-    l->line[strcspn(l->line, "#")] = '\0';
+    line[strcspn(line, "#")] = '\0';
     return true;
 }
 
-/// The text after the line's first word if that is `word`; else NULL.
-static char *obj_behind(const struct obj_lines *l, const char *word)
-{
-    char *at = obj_skip_space(l->line);
-    const size_t length = strlen(word);
-    return strncmp(at, word, length) == 0 && strchr(" \t\r", at[length]) ? obj_skip_space(at + length) : NULL;
-}
-
 /// The rest of a line: a name, possibly with spaces.
-static char *obj_name_at(char *at)
+static char *obj_name(struct words *w)
 {
-    size_t length = strlen(at);
-    while (length > 0 && strchr(" \t\r", at[length - 1])) at[--length] = '\0';
-    return at;
+    words_more(w);
+    size_t length = strlen(w->at);
+    while (length > 0 && strchr(" \t\r", w->at[length - 1])) w->at[--length] = '\0';
+    return w->at;
 }
 
 static void obj_note(struct looks *looks, const char *name)
@@ -95,25 +348,25 @@ static void obj_read_materials(const char *obj_path, const char *name, struct su
 {
     struct looks *looks = &builder->surface->looks;
     uint32_t current = LOOKS_NONE;
-    struct obj_lines lines = {0};
-    char *text = NULL, *at;
+    struct words words = {0}, *const w = &words;
+    char *text = NULL, *next;
     size_t size;
     if (!obj_read_beside(obj_path, name, TEXT_LIMIT, &text, &size)) {
         obj_note(looks, name);
         return;
     }
-    for (lines.next = text; obj_next_line(&lines);) {
-        if ((at = obj_behind(&lines, "newmtl"))) current = builder_material(builder, obj_name_at(at));
+    for (next = text; obj_next_line(w, &next, false);) {
+        if (words_take(w, "newmtl")) current = builder_material(builder, obj_name(w));
         if (current == LOOKS_NONE) continue;
         struct looks_material *material = &looks->materials[current];
-        if ((at = obj_behind(&lines, "Kd"))) {
-            for (int k = 0; k < 3; k++) obj_in_range(at, &material->color[k]), strtof(at, &at);
-        } else if ((at = obj_behind(&lines, "d"))) {
-            obj_in_range(at, &material->color[3]);
-        } else if ((at = obj_behind(&lines, "Tr")) && obj_in_range(at, &material->color[3])) {
-            material->color[3] = 1 - material->color[3];
-        } else if ((at = obj_behind(&lines, "map_Kd")) && !material->image) {
-            const char *picture = obj_name_at(at); // behind options, each followed by numbers or on/off
+        if (words_take(w, "Kd")) {
+            for (int k = 0; k < 3; k++) obj_in_range(w->at, &material->color[k]), strtof(w->at, &w->at);
+        } else if (words_take(w, "d")) {
+            obj_in_range(w->at, &material->color[3]);
+        } else if (words_take(w, "Tr")) {
+            if (obj_in_range(w->at, &material->color[3])) material->color[3] = 1 - material->color[3];
+        } else if (words_take(w, "map_Kd") && !material->image) {
+            const char *picture = obj_name(w); // behind options, each followed by numbers or on/off
             while (*picture == '-' && strchr(picture, ' ')) {
                 picture += strcspn(picture, " \t");
                 for (picture += strspn(picture, " \t"); *picture;) {
@@ -141,81 +394,66 @@ static void obj_read_materials(const char *obj_path, const char *name, struct su
     free(text);
 }
 
-static bool obj_expected(const struct obj_lines *l, const char *what, const char *got)
-{
-    int shown = (int)strcspn(got, " \t\r");
-    if (shown == 0) return fail(l->error, ERROR_INPUT, "%s:%d: expected %s, got nothing", l->path, l->number, what);
-    if (shown > SHOWN_MAX) shown = SHOWN_MAX;
-    return fail(l->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", l->path, l->number, what, shown, got);
-}
-
 /// Up to `count` numbers; returns how many the line has, -1 if a word is not a number.
-static int obj_read_numbers(const struct obj_lines *l, char *at, double *numbers, int count)
+static int obj_read_numbers(struct words *w, double *numbers, int count)
 {
     for (int i = 0; i < count; i++) {
-        at = obj_skip_space(at);
-        if (!*at) return i;
-        char *end;
-        numbers[i] = (double)strtof(at, &end);
-        if (end == at || !strchr(" \t\r", *end) || !isfinite(numbers[i])) {
-            obj_expected(l, "a finite number", at);
-            return -1;
-        }
-        at = end;
+        if (!words_more(w)) return i;
+        if (!words_number(w, "a finite number", &numbers[i])) return -1;
     }
     return count;
 }
 
-static bool obj_read(struct words *words, struct surface_builder *builder)
+static bool obj_read(struct words *w, struct surface_builder *builder)
 {
-    const char *text = words->at;
-    const long size = words->end - text;
-    struct obj_lines lines = {.next = words->at, .joins = true, .path = words->path, .error = words->error};
-    const struct obj_lines *const l = &lines;
+    const char *text = w->at;
+    char *next = w->at;
+    const long size = w->end - text;
+    w->line = 0;
+    w->over = "nothing"; // on its line
     if (memchr(text, '\0', (size_t)size))
-        return fail(l->error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", l->path);
-    while (!builder->failed && obj_next_line(&lines)) {
-        if (l->number % TELLING == 0) progress_report("reading the mesh", l->next - text, size);
-        char *at;
-        if ((at = obj_behind(l, "v"))) {
+        return fail(w->error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", w->path);
+    while (!builder->failed && obj_next_line(w, &next, true)) {
+        if (w->line % TELLING == 0) progress_report("reading the mesh", next - text, size);
+        if (words_take(w, "v")) {
             double numbers[6]; // x y z [w | r g b]
-            const int count = obj_read_numbers(l, at, numbers, 6);
+            const int count = obj_read_numbers(w, numbers, 6);
             if (count < 0) return false;
-            if (count < 3) return obj_expected(l, "three coordinates of a vertex", "");
+            if (count < 3) return words_expected(w, "three coordinates of a vertex");
             builder_vertex(builder, numbers);
             const double *wrong = count == 6 ? builder_wrong_color(numbers + 3) : NULL;
             if (wrong)
-                return fail(l->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", l->path, l->number,
+                return fail(w->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", w->path, w->line,
                             *wrong);
             if (count == 6) builder_color(builder, numbers + 3);
-        } else if ((at = obj_behind(l, "vt"))) { // u [v [w]], from the lower left of the picture
+        } else if (words_take(w, "vt")) { // u [v [w]], from the lower left of the picture
             double numbers[2] = {0};
-            if (obj_read_numbers(l, at, numbers, 2) < 0) return false;
+            if (obj_read_numbers(w, numbers, 2) < 0) return false;
             builder_uv(builder, numbers[0], 1 - numbers[1]);
-        } else if ((at = obj_behind(l, "f"))) { // a b c d … as the fan abc, acd, …
-            while (*at) { // v, v/vt, v//vn or v/vt/vn, counted from 1 or backwards from -1 (the newest)
+        } else if (words_take(w, "f")) { // a b c d … as the fan abc, acd, …
+            while (words_more(w)) { // v, v/vt, v//vn or v/vt/vn, counted from 1 or backwards from -1 (the newest)
                 char *end;
                 const int vertices = builder->surface->vertex_count, uvs = builder->surface->looks.uv_count;
-                long index = strtol(at, &end, 10);
+                long index = strtol(w->at, &end, 10);
                 if (index < 0) index += vertices + 1;
-                const bool written = end > at && (*end == '/' || strchr(" \t\r", *end));
-                if (!written || index < 1 || index > INT_MAX) return obj_expected(l, "the number of a vertex", at);
+                const bool written = end > w->at && (*end == '/' || strchr(" \t\r", *end));
+                if (!written || index < 1 || index > INT_MAX) return words_expected(w, "the number of a vertex");
                 char what[64];
                 snprintf(what, sizeof what, "a vertex from 1 to %d", vertices);
-                if (index > vertices) return obj_expected(l, what, at);
+                if (index > vertices) return words_expected(w, what);
                 long uv = *end == '/' && end[1] != '/' ? strtol(end + 1, NULL, 10) : 0;
                 if (uv < 0) uv += uvs + 1;
                 builder_corner(builder, (uint32_t)index - 1, uv >= 1 && uv <= uvs ? (uint32_t)uv - 1 : LOOKS_NONE);
-                at = obj_skip_space(end + strcspn(end, " \t\r"));
+                words_skip(w);
             }
             const int count = builder_end_polygon(builder);
             if (count < 3)
-                return fail(l->error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", l->path,
-                            l->number, count);
-        } else if ((at = obj_behind(l, "usemtl"))) {
-            builder->material = builder_material(builder, obj_name_at(at));
-        } else if ((at = obj_behind(l, "mtllib"))) {
-            obj_read_materials(l->path, obj_name_at(at), builder);
+                return fail(w->error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", w->path,
+                            w->line, count);
+        } else if (words_take(w, "usemtl")) {
+            builder->material = builder_material(builder, obj_name(w));
+        } else if (words_take(w, "mtllib")) {
+            obj_read_materials(w->path, obj_name(w), builder);
         }
     }
     return true;
@@ -335,24 +573,15 @@ static const struct {
     {"int8", NUMBER_INT8},   {"uint8", NUMBER_UINT8},   {"int16", NUMBER_INT16},     {"uint16", NUMBER_UINT16},
     {"int32", NUMBER_INT32}, {"uint32", NUMBER_UINT32}, {"float32", NUMBER_FLOAT32}, {"float64", NUMBER_FLOAT64}};
 
-static const struct {
-    const char *name;
-    enum role role;
-} roles[] = {{"x", X},
-             {"y", Y},
-             {"z", Z},
-             {"red", RED},
-             {"green", GREEN},
-             {"blue", BLUE},
-             {"diffuse_red", RED},
-             {"diffuse_green", GREEN},
-             {"diffuse_blue", BLUE},
-             {"s", U},
-             {"t", V},
-             {"u", U},
-             {"v", V},
-             {"texture_u", U},
-             {"texture_v", V}};
+/// Names of properties that different programs write.
+static const char *const roles[ROLES][3] = {[X] = {"x"},
+                                            [Y] = {"y"},
+                                            [Z] = {"z"},
+                                            [RED] = {"red", "diffuse_red"},
+                                            [GREEN] = {"green", "diffuse_green"},
+                                            [BLUE] = {"blue", "diffuse_blue"},
+                                            [U] = {"s", "u", "texture_u"},
+                                            [V] = {"t", "v", "texture_v"}};
 
 static bool ply_read_type(struct words *w, enum number_type *type)
 {
@@ -476,9 +705,8 @@ static bool ply_read(struct words *w, struct surface_builder *builder)
                 if ((list && !ply_read_type(w, &p->count_type)) || !ply_read_type(w, &p->type)) return false;
                 if (!e->vertices && list && (words_take(w, "vertex_indices") || words_take(w, "vertex_index")))
                     p->role = CORNERS;
-                for (size_t i = 0; e->vertices && !list && p->role == OTHER && i < sizeof roles / sizeof *roles;
-                     i++) {
-                    if (words_take(w, roles[i].name)) p->role = roles[i].role;
+                for (int i = 0; e->vertices && !list && p->role == OTHER && i < 3 * ROLES; i++) {
+                    if (roles[i / 3][i % 3] && words_take(w, roles[i / 3][i % 3])) p->role = (enum role)(i / 3);
                 }
                 if (p->role < ROLES) e->has[p->role] = true;
                 if (p->role == OTHER) words_skip_line(w); // its name
@@ -640,6 +868,96 @@ static bool off_read(struct words *w, struct surface_builder *b)
     return true;
 }
 
+// --- glTF
+
+/// Adds a part of a mesh with its vertices at these places (NULL: its first part has them), its material and its PNG or JPEG picture.
+/// `every_uv`: each vertex gets texture coordinates.
+static void gltf_add_part(struct surface_builder *b, const struct gltf *gltf, const struct gltf_part *part,
+                          const float (*position)[3], bool every_uv)
+{
+    struct surface *s = b->surface;
+    const uint32_t first = position ? (uint32_t)s->vertex_count : 0;
+    const uint32_t first_uv = position ? (uint32_t)s->looks.uv_count : 0;
+    b->material = LOOKS_NONE;
+    if (part->material >= 0) {
+        const struct gltf_material *material = &gltf->materials[part->material];
+        const struct gltf_image *image = material->image >= 0 ? &gltf->images[material->image] : NULL;
+        b->material = builder_material(b, material->name);
+        if (b->failed) return;
+        struct looks_material *look = &s->looks.materials[b->material];
+        for (int k = 0; k < 4; k++) look->color[k] = glm_clamp(material->color[k], 0, 1);
+        const bool fits = image && looks_image_bytes(&s->looks) + image->size <= LOOKS_IMAGES_LIMIT;
+        if (!look->image && fits && looks_image_kind(image->bytes, image->size)) {
+            look->image = malloc(image->size);
+            b->failed = !look->image;
+            if (b->failed) return;
+            memcpy(look->image, image->bytes, image->size);
+            look->image_size = image->size;
+        }
+    }
+    for (int i = 0; position && i < part->vertex_count && !b->failed; i++) {
+        const float *at = position[i];
+        builder_vertex(b, (const double[]){(double)at[0], (double)at[1], (double)at[2]});
+        if (part->color) {
+            float rgb[3];
+            for (int k = 0; k < 3; k++) rgb[k] = glm_clamp(part->color[i][k], 0, 1);
+            builder_linear_color(b, rgb);
+        }
+        if (part->uv) {
+            builder_uv(b, (double)part->uv[i][0], (double)part->uv[i][1]);
+        } else if (every_uv) {
+            builder_uv(b, 0, 0);
+        }
+    }
+    for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
+        const uint32_t *corner = part->indices + i;
+        const bool joined = gltf_joins(part, i);
+        if (!joined) builder_end_polygon(b);
+        for (int k = joined ? 2 : 0; k < 3; k++)
+            builder_corner(b, first + corner[k], part->uv || every_uv ? first_uv + corner[k] : LOOKS_NONE);
+    }
+    builder_end_polygon(b);
+}
+
+bool surface_of_mesh(const struct gltf *gltf, const struct gltf_mesh *mesh, struct surface *surface)
+{
+    struct surface_builder b = {.surface = surface};
+    bool has_uv = false;
+    for (int p = 0; p < mesh->part_count; p++) has_uv = has_uv || mesh->parts[p].uv;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        gltf_add_part(&b, gltf, part, part->shared ? NULL : (const float(*)[3])part->position, has_uv);
+    }
+    const bool done = builder_finish(&b, gltf->path, "a glTF file", NULL);
+    free(surface->looks.corner); // each vertex has those of its number
+    surface->looks.corner = NULL;
+    return done;
+}
+
+/// All that a file shows, at rest. It opens the file itself.
+static bool gltf_surface_read(struct words *words, struct surface_builder *b)
+{
+    struct gltf gltf;
+    struct gltf_pose pose;
+    if (!gltf_read_stored(words->path, &gltf, words->error)) return false;
+    b->failed = !gltf_pose_create(&gltf, &pose); // at rest
+    for (int n = 0; !b->failed && n < gltf.node_count; n++) {
+        const int count = gltf_vertex_count(&gltf, n);
+        if (count == 0) continue;
+        float(*position)[3] = malloc((size_t)count * sizeof *position);
+        b->failed = !position;
+        if (b->failed) break;
+        gltf_pose_vertices(&gltf, &pose, n, position, NULL);
+        const struct gltf_mesh *mesh = &gltf.meshes[gltf.nodes[n].mesh];
+        for (int p = 0, next = 0; p < mesh->part_count && !b->failed; next += mesh->parts[p++].vertex_count)
+            gltf_add_part(b, &gltf, &mesh->parts[p], (const float(*)[3])position + next, false);
+        free(position);
+    }
+    gltf_pose_free(&pose);
+    gltf_free(&gltf);
+    return true;
+}
+
 // --- any format
 
 enum { FILE_LIMIT = 1 << 30 };
@@ -652,7 +970,7 @@ bool surface_read(const char *path, struct surface *surface, struct error *error
     } formats[] = {{".stl", "an STL file", stl_read},           {".ply", "a PLY file", ply_read},
                    {".off", "an OFF file", off_read},           {".glb", "a glTF file", gltf_surface_read},
                    {".gltf", "a glTF file", gltf_surface_read}, {"", "an OBJ file", obj_read}};
-    struct words words = {.path = path, .line = 1, .error = error};
+    struct words words = {.path = path, .line = 1, .over = "the end of the file", .error = error};
     struct surface_builder builder = {.surface = surface, .material = LOOKS_NONE};
     char *data = NULL;
     size_t size = 0;
