@@ -7,7 +7,25 @@
 #include "rig/strand.h"
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+// --- what moves a model: the places of nodes, and the weights of its soft mesh
+
+static void pose_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
+{
+    const struct gltf_pose *now = pose->model.pose;
+    if (form->kind->holds & FORM_MESH) memcpy(key->translation, pose->model.root + 12, sizeof key->translation);
+    for (int j = 0; j < form->joint_count; j++) {
+        const struct gltf_place *place = &now->place[form->joints[j].node];
+        memcpy(key->rotation[j], place->rotation, sizeof place->rotation);
+        memcpy(key->scale[j], place->scale, sizeof place->scale);
+    }
+    for (int t = 0; t < form->shape.target_count; t++) {
+        const struct form_target *target = &form->targets[t];
+        key->weight[t] = target->scale * now->weights[form->gltf->nodes[form->soft].first_weight + target->source];
+    }
+}
 
 // --- a tail: the fox, skinned to the tail's joints; and a chain, which moves its model
 
@@ -39,7 +57,8 @@ static void tail_columns(const struct export_range *range, int rig, const struct
 static bool tail_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                       struct error *error)
 {
-    const struct gltf *gltf = pose->model.gltf;
+    const struct gltf *gltf = form->gltf;
+    struct gltf_shape *shape = &form->shape;
     (void)posing, (void)rig, (void)error;
     const struct gltf_mesh *mesh = gltf->meshes;
     const float *root = pose->model.root, scale = root[0];
@@ -52,24 +71,26 @@ static bool tail_open(const struct posing *posing, int rig, const struct rig_pos
     float(*normal)[3] = pool_take(&form->pool, vertices, sizeof *normal);
     float(*color)[3] = pool_take(&form->pool, vertices, sizeof *color);
     uint32_t *to = pool_take(&form->pool, indices, sizeof *to);
-    form->position = (const float(*)[3])position;
-    form->normal = (const float(*)[3])normal;
-    form->color = (const float(*)[3])color;
-    form->indices = to;
-    form->slots = pool_take(&form->pool, vertices, sizeof *form->slots);
-    form->weights = pool_take(&form->pool, vertices, sizeof *form->weights);
+    uint16_t(*joints)[FORM_INFLUENCES] = pool_take(&form->pool, vertices, sizeof *joints);
+    float(*weights)[FORM_INFLUENCES] = pool_take(&form->pool, vertices, sizeof *weights);
+    *shape = (struct gltf_shape){.position = (const float(*)[3])position,
+                                 .normal = (const float(*)[3])normal,
+                                 .color = (const float(*)[3])color,
+                                 .joints = (const uint16_t(*)[4])joints,
+                                 .weights = (const float(*)[4])weights,
+                                 .indices = to};
     for (int p = 0; p < mesh->part_count; p++) {
         const struct gltf_part *part = &mesh->parts[p];
         for (int i = 0; i < part->index_count; i++)
-            to[form->index_count++] = (uint32_t)form->vertex_count + part->indices[i];
+            to[shape->index_count++] = (uint32_t)shape->vertex_count + part->indices[i];
         for (int v = 0; v < part->vertex_count; v++) {
-            const int at = form->vertex_count++;
+            const int at = shape->vertex_count++;
             for (int k = 0; k < 3; k++) position[at][k] = scale * part->position[v][k];
             memcpy(normal[at], part->normal[v], sizeof normal[at]);
             memcpy(color[at], part->color[v], sizeof color[at]);
             for (int n = 0; n < FORM_INFLUENCES; n++) { // a vertex has at most four joints
-                form->weights[at][n] = part->weights[v][n];
-                form->slots[at][n] = part->weights[v][n] > 0.0f ? (uint16_t)(FOX_FIRST_LIMB + part->joints[v][n]) : 0;
+                weights[at][n] = part->weights[v][n];
+                joints[at][n] = part->weights[v][n] > 0.0f ? (uint16_t)(FOX_FIRST_LIMB + part->joints[v][n]) : 0;
             }
         }
     }
@@ -83,6 +104,7 @@ static bool tail_open(const struct posing *posing, int rig, const struct rig_pos
         struct form_joint *joint = &form->joints[j];
         const char *name = j == 0 ? "base" : node->name + (j < FOX_FIRST_JOINT ? 0 : strlen("tail_"));
         joint->name = pool_text(&form->pool, form->name, "_", name);
+        joint->node = j;
         joint->parent = node->parent;
         for (int k = 0; k < 3; k++) {
             joint->offset[k] = j == 0 ? root[12 + k] : scale * node->place.translation[k];
@@ -94,28 +116,7 @@ static bool tail_open(const struct posing *posing, int rig, const struct rig_pos
     return true;
 }
 
-static void tail_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
-{
-    memcpy(key->translation, pose->model.root + 12, sizeof key->translation);
-    for (int j = 0; j < form->joint_count; j++) {
-        const struct gltf_place *place = &pose->model.pose->place[j];
-        memcpy(key->rotation[j], place->rotation, sizeof place->rotation);
-        memcpy(key->scale[j], place->scale, sizeof place->scale);
-    }
-}
-
-static void tail_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3])
-{
-    const float *root = pose->model.root;
-    (void)as_shown;
-    const struct gltf *gltf = pose->model.gltf;
-    gltf_pose_vertices(gltf, pose->model.pose, gltf->node_count - 1, positions, NULL);
-    for (int v = 0; v < form->vertex_count; v++)
-        for (int k = 0; k < 3; k++) positions[v][k] = root[0] * positions[v][k] + root[12 + k];
-}
-
-const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, tail_open, tail_key, tail_vertices,
-                                    tail_columns};
+const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, tail_open, pose_key, tail_columns};
 const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = tail_columns};
 
 // --- a soft character without bones: its mesh, and the morph targets of each coordinate, as in its own file (model/character.h)
@@ -129,56 +130,39 @@ struct moving {
 static bool character_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                            struct error *error)
 {
-    const struct figure *figure = pose->model.figure;
-    const struct character *c = &figure->character;
+    const struct character *c = &pose->model.figure->character;
+    const struct model_rig *model = &posing->document->rigs[rig]->model;
+    const size_t most = (size_t)c->coordinate_count * COORDINATE_PARTS;
     (void)error;
-    form->vertex_count = c->vertex_count;
-    form->position = (const float(*)[3])c->position;
-    form->normal = (const float(*)[3])c->normal;
-    form->color = (const float(*)[3])c->color;
-    form->indices = c->indices;
-    form->index_count = c->index_count;
-    struct moving *moving = form->owned =
+    struct moving *moving =
         pool_take(&form->pool, sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates, 1);
-    form->looks = &c->looks;
-    form->targets = pool_take(&form->pool, (size_t)c->coordinate_count * COORDINATE_PARTS, sizeof *form->targets);
     moving->character = *c;
     moving->character.coordinates = moving->coordinates;
     moving->character.coordinate_count = 0;
-    form->character = &moving->character;
+    form->shape = (struct gltf_shape){.vertex_count = c->vertex_count,
+                                      .position = (const float(*)[3])c->position,
+                                      .normal = (const float(*)[3])c->normal,
+                                      .color = (const float(*)[3])c->color,
+                                      .uv = (const float(*)[2])c->looks.uv,
+                                      .indices = c->indices,
+                                      .index_count = c->index_count,
+                                      .looks = &c->looks,
+                                      .targets = pool_take(&form->pool, most, sizeof *form->shape.targets),
+                                      .character = &moving->character};
+    form->targets = pool_take(&form->pool, most, sizeof *form->targets);
     for (int k = 0; k < c->coordinate_count; k++) {
-        const struct model_rig *model = &posing->document->rigs[rig]->model;
+        const struct coordinate *coordinate = &c->coordinates[k];
         bool moves = false;
-        for (int d = 0; d < model->drive_count; d++) moves |= figure_find(figure, model->drives[d].name) == k;
+        for (int d = 0; d < model->drive_count; d++) moves |= figure_find(form->figure, model->drives[d].name) == k;
         if (!moves) continue;
-        moving->coordinates[moving->character.coordinate_count++] = c->coordinates[k];
-        for (int part = 0; part < coordinate_parts(&c->coordinates[k]); part++)
-            form->targets[form->target_count++] =
-                (struct form_target){figure_target_create(figure, k, part, &form->pool), k, part};
-    }
-    return true;
-}
-
-static void character_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
-{
-    const struct morph *morph = &pose->model.morph;
-    memcpy(key->translation, pose->model.root + 12, sizeof key->translation);
-    for (int t = 0; t < form->target_count; t++) {
-        key->weight[t] = 0;
-        for (int k = 0; k < morph->count; k++) {
-            const int part = form->targets[t].part;
-            if (morph->coordinate[k] == form->targets[t].group)
-                key->weight[t] += (part == COORDINATE_PARTS - 1 ? -1 : 1) * morph->weight[k][part];
+        moving->coordinates[moving->character.coordinate_count++] = *coordinate;
+        for (int part = 0; part < coordinate_parts(coordinate); part++) {
+            const int t = form->shape.target_count++;
+            form->shape.targets[t] = figure_target_create(form->figure, k, part, &form->pool);
+            form->targets[t] = (struct form_target){k, coordinate->target[part], (float)coordinate->scale};
         }
     }
-}
-
-static void character_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown,
-                               float (*positions)[3])
-{
-    for (int i = 0; !as_shown && i < form->vertex_count; i++)
-        morph_vertex(pose->model.figure, &pose->model.morph, i, positions[i], NULL);
-    if (as_shown) figure_vertices(&pose->model, positions, NULL, NULL, NULL);
+    return true;
 }
 
 /// Each driven coordinate's weight, a complex number.
@@ -201,8 +185,7 @@ static void model_columns(const struct export_range *range, int rig, const struc
     }
 }
 
-static const struct form_kind soft_form = {FORM_MESH | FORM_POINTS, character_open, character_key, character_vertices,
-                                           model_columns};
+static const struct form_kind soft_form = {FORM_MESH | FORM_POINTS, character_open, pose_key, model_columns};
 
 // --- any other character, in its file's space: its vertices, and the bones of its chains as joints
 
@@ -244,20 +227,14 @@ const struct gltf *form_gltf(const struct rig_pose *pose, struct pool *pool)
     return painted;
 }
 
-/// Vertices that a part does not share with its mesh's first: a cache has a row for each of the file's.
-static int own_vertices(const struct gltf_part *part) { return part->shared ? 0 : part->vertex_count; }
-
 static bool model_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                        struct error *error)
 {
     const struct model_rig *model = &posing->document->rigs[rig]->model;
-    const struct gltf *gltf = form_gltf(pose, &form->pool);
+    const struct gltf *gltf = form->gltf = form_gltf(pose, &form->pool);
     const int clip = gltf_find_clip(gltf, model->clip);
     const size_t nodes = (size_t)gltf->node_count;
-    struct model_body *body = form->owned = pool_take(&form->pool, 1, sizeof *body);
-    body->gltf = gltf;
-    body->clip = clip >= 0 ? &gltf->clips[clip] : NULL;
-    body->node = pool_take(&form->pool, nodes, sizeof *body->node);
+    form->clip = clip >= 0 ? &gltf->clips[clip] : NULL;
     form->joints = pool_take(&form->pool, nodes, sizeof *form->joints);
     for (int r = -1; (r = document_next_chain(posing->document, rig, r)) >= 0;) {
         const struct chain *chain = &posing->document->rigs[r]->chain;
@@ -265,90 +242,32 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
         if (!chain_find(gltf, chain->from, chain->to, &bones, error)) return false;
         for (int n = 0; n < bones.count; n++) {
             bool is_new = true;
-            for (int j = 0; j < form->joint_count; j++) is_new = is_new && body->node[j] != bones.node[n];
-            if (is_new) body->node[form->joint_count++] = bones.node[n];
+            for (int j = 0; j < form->joint_count; j++) is_new = is_new && form->joints[j].node != bones.node[n];
+            if (is_new) form->joints[form->joint_count++].node = bones.node[n];
         }
     }
-    const struct figure *figure = pose->model.figure;
-    body->soft = figure && model->drive_count > 0 ? figure->character.node : -1;
-    if (body->soft >= 0) {
-        const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[body->soft].mesh];
-        const struct character *c = &figure->character;
-        body->figure = figure;
-        form->target_count = mesh->target_count;
-        form->targets = pool_take(&form->pool, (size_t)mesh->target_count, sizeof *form->targets);
+    if (model->drive_count == 0) form->soft = -1;
+    if (form->soft >= 0) {
+        const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[form->soft].mesh];
+        const struct character *c = &form->figure->character;
+        const size_t targets = (size_t)mesh->target_count;
+        form->shape.target_count = mesh->target_count;
+        form->shape.targets = pool_take(&form->pool, targets, sizeof *form->shape.targets);
+        form->targets = pool_take(&form->pool, targets, sizeof *form->targets);
         for (int t = 0; t < mesh->target_count; t++) {
-            form->targets[t].figure.name = gltf_target_label(mesh, t, &form->pool);
-            form->targets[t].group = -1 - t;
+            form->shape.targets[t].name = gltf_target_label(mesh, t, &form->pool);
+            form->targets[t] = (struct form_target){-1 - t, t, 1};
         }
         for (int k = 0; k < c->coordinate_count; k++) {
             for (int part = 0; part < coordinate_parts(&c->coordinates[k]); part++)
                 form->targets[c->coordinates[k].target[part]].group = k;
         }
     }
-    int most = 0;
-    body->holder = -1;
-    for (int n = 0; n < gltf->node_count; n++) {
-        const int count = gltf_vertex_count(gltf, n);
-        if (count > most) most = count;
-        if (count > 0) body->holder = form->vertex_count == 0 ? n : -1;
-        for (int p = 0; count > 0 && p < gltf->meshes[gltf->nodes[n].mesh].part_count; p++)
-            form->vertex_count += own_vertices(&gltf->meshes[gltf->nodes[n].mesh].parts[p]);
-    }
-    body->posed = pool_take(&form->pool, (size_t)most, sizeof *body->posed);
     return true;
 }
 
-static void model_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
-{
-    const struct model_body *body = form->owned;
-    const struct gltf_pose *now = pose->model.pose;
-    memset(key->translation, 0, sizeof key->translation);
-    for (int j = 0; j < form->joint_count; j++)
-        memcpy(key->rotation[j], now->place[body->node[j]].rotation, sizeof key->rotation[j]);
-    if (body->soft >= 0)
-        memcpy(key->weight, now->weights + body->gltf->nodes[body->soft].first_weight,
-               (size_t)form->target_count * sizeof *key->weight);
-}
-
-/// Node by node, each vertex of the file once.
-static void model_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3])
-{
-    const struct gltf *gltf = pose->model.gltf;
-    const struct model_body *body = form->owned;
-    float(*to)[3] = positions;
-    for (int n = 0; n < gltf->node_count; n++) {
-        if (gltf_vertex_count(gltf, n) == 0) continue;
-        const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[n].mesh];
-        float(*from)[3] = body->posed;
-        const bool is_soft = pose->model.figure && n == pose->model.figure->character.node;
-        if (is_soft) {
-            struct model_pose inside = pose->model;
-            memcpy(inside.root, GLM_MAT4_IDENTITY, sizeof inside.root);
-            figure_vertices(&inside, to, NULL, NULL, NULL);
-            to += inside.figure->character.vertex_count;
-            continue;
-        }
-        gltf_pose_vertices(gltf, pose->model.pose, n, from, NULL);
-        for (const struct gltf_part *part = mesh->parts; part < mesh->parts + mesh->part_count; part++) {
-            memcpy(to, from, (size_t)own_vertices(part) * sizeof *to);
-            to += own_vertices(part);
-            from += part->vertex_count;
-        }
-    }
-    const bool is_inside = !as_shown && body->holder >= 0;
-    mat4s place = as_shown    ? mat4_from(pose->model.root)
-                  : is_inside ? mat4_from(pose->model.pose->world[body->holder])
-                              : glms_mat4_identity();
-    const bool has_size = is_inside && glms_mat4_det(place) != 0.0f; // else it stays in the file's space
-    if (has_size) place = glms_mat4_inv(place);
-    for (int v = 0; (as_shown || has_size) && v < form->vertex_count; v++)
-        glm_mat4_mulv3(place.raw, positions[v], 1, positions[v]);
-}
-
 /// Its chains have columns of their own; its clip has none.
-const struct form_kind model_form = {FORM_FILE | FORM_POINTS | FORM_JOINTS, model_open, model_key, model_vertices,
-                                     model_columns};
+const struct form_kind model_form = {FORM_FILE | FORM_POINTS | FORM_JOINTS, model_open, pose_key, model_columns};
 
 // --- the skeleton of a character: every bone with its clip and its chains
 //
@@ -362,14 +281,13 @@ static const float STILL = 1e-6f; ///< rounding, as a share of the character's s
 struct source {
     const struct imported *imported;
     int *joint_of; ///< of each node, or NO_JOINT
-    int *node;     ///< of each joint but the origin
     versors *turn; ///< of each joint, at the key being made
     float still;   ///< bones that move less do not move
 };
 
-static vec3s place_of(const struct source *source, const struct gltf_pose *pose, int joint)
+static vec3s place_of(const struct form *form, const struct gltf_pose *pose, int joint)
 {
-    return joint == ORIGIN ? glms_vec3_zero() : vec3_from(pose->world[source->node[joint]] + 12);
+    return joint == ORIGIN ? glms_vec3_zero() : vec3_from(pose->world[form->joints[joint].node] + 12);
 }
 
 /// Adds the bones among a node, those beside it, and all below.
@@ -382,10 +300,10 @@ static void add_joints(struct form *form, int node, int above)
             struct form_joint *joint = &form->joints[j = form->joint_count++];
             joint->name = names_add(&form->names, form_word(&form->pool, source->imported->gltf.nodes[node].name));
             joint->parent = above;
-            source->node[j] = node;
+            joint->node = node;
             source->joint_of[node] = j;
             const struct gltf_pose *rest = &source->imported->rest;
-            const vec3s offset = glms_vec3_sub(place_of(source, rest, j), place_of(source, rest, above));
+            const vec3s offset = glms_vec3_sub(place_of(form, rest, j), place_of(form, rest, above));
             memcpy(joint->offset, offset.raw, sizeof joint->offset);
         }
         add_joints(form, source->imported->gltf.nodes[node].child, j);
@@ -403,7 +321,6 @@ static bool skeleton_open(const struct posing *posing, int rig, const struct rig
     struct source *source = form->owned = pool_take(&form->pool, 1, sizeof *source);
     *source = (struct source){.imported = pose->imported,
                               .joint_of = pool_take(&form->pool, most, sizeof *source->joint_of),
-                              .node = pool_take(&form->pool, most, sizeof *source->node),
                               .turn = pool_take(&form->pool, most, sizeof *source->turn)};
     for (int k = 0; k < 3; k++) source->still = fmaxf(source->still, STILL * (gltf->hi[k] - gltf->lo[k]));
     form->joints = pool_take(&form->pool, most, sizeof *form->joints);
@@ -438,15 +355,15 @@ static void skeleton_key(const struct form *form, const struct rig_pose *pose, s
         const int parent = j == ORIGIN ? ORIGIN : form->joints[j].parent;
         const versors back = glms_quat_inv(source->turn[parent]);
         if (j != ORIGIN) { // how it is turned from its rest, in the character's space
-            const int node = source->node[j];
+            const int node = form->joints[j].node;
             const mat3s rest = glms_mat4_pick3(mat4_from(source->imported->rest.world[node]));
             mat3s turned = glms_mat3_mul(glms_mat4_pick3(mat4_from(now->world[node])), mat3_inverse(rest));
             for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
             source->turn[j] = glms_quat_normalize(glms_mat3_quat(turned)); // uneven scales shear it
         }
         const versors own = glms_quat_mul(back, source->turn[j]);
-        const vec3s place = place_of(source, now, j);
-        const vec3s offset = glms_quat_rotatev(back, glms_vec3_sub(place, place_of(source, now, parent)));
+        const vec3s place = place_of(form, now, j);
+        const vec3s offset = glms_quat_rotatev(back, glms_vec3_sub(place, place_of(form, now, parent)));
         memcpy(key->rotation[j], own.raw, sizeof key->rotation[j]);
         if (j == form->first_bone) memcpy(key->translation, place.raw, sizeof key->translation);
         if (glms_vec3_distance(offset, vec3_from(form->joints[j].offset)) > source->still)
@@ -455,6 +372,61 @@ static void skeleton_key(const struct form *form, const struct rig_pose *pose, s
 }
 
 const struct form_kind skeleton_form = {.holds = FORM_JOINTS, .open = skeleton_open, .key = skeleton_key};
+
+// --- vertices as points, in the order of the file
+
+/// Vertices that a part does not share with its mesh's first: a cache has a row for each of the file's.
+static int own_vertices(const struct gltf_part *part) { return part->shared ? 0 : part->vertex_count; }
+
+/// Whether a node's mesh is a part of the form.
+static bool shows(const struct form *form, int node)
+{
+    const bool is_alone = form->kind == &soft_form && node != form->soft;
+    return !is_alone && gltf_vertex_count(form->gltf, node) > 0;
+}
+
+void form_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3])
+{
+    const struct gltf *gltf = form->gltf;
+    float(*to)[3] = positions;
+    int holders = 0, holder = -1; // nodes that have vertices, and the last of them
+    int most = 0;
+    for (int n = 0; n < gltf->node_count; n++) {
+        if (!shows(form, n)) continue;
+        holders++;
+        holder = n;
+        most = gltf_vertex_count(gltf, n) > most ? gltf_vertex_count(gltf, n) : most;
+    }
+    float(*const posed)[3] = need((size_t)most, sizeof *posed);
+    for (int n = 0; n < gltf->node_count; n++) {
+        if (!shows(form, n)) continue;
+        if (pose->model.figure && n == pose->model.figure->character.node) {
+            struct model_pose inside = pose->model;
+            memcpy(inside.root, GLM_MAT4_IDENTITY, sizeof inside.root);
+            figure_vertices(&inside, to, NULL, NULL, NULL);
+            to += inside.figure->character.vertex_count;
+            continue;
+        }
+        const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[n].mesh];
+        float(*from)[3] = posed;
+        gltf_pose_vertices(gltf, pose->model.pose, n, from, NULL);
+        for (const struct gltf_part *part = mesh->parts; part < mesh->parts + mesh->part_count; part++) {
+            memcpy(to, from, (size_t)own_vertices(part) * sizeof *to);
+            to += own_vertices(part);
+            from += part->vertex_count;
+        }
+    }
+    free(posed);
+    const bool is_placed = as_shown || form->kind == &tail_form;
+    const bool is_inside = !is_placed && holders == 1 && form->kind == &model_form;
+    mat4s place = is_placed   ? mat4_from(pose->model.root)
+                  : is_inside ? mat4_from(pose->model.pose->world[holder])
+                              : glms_mat4_identity();
+    const bool has_size = is_inside && glms_mat4_det(place) != 0.0f; // else it stays in the file's space
+    if (has_size) place = glms_mat4_inv(place);
+    for (int v = 0; (is_placed || has_size) && v < form->vertex_count; v++)
+        glm_mat4_mulv3(place.raw, positions[v], 1, positions[v]);
+}
 
 // --- all kinds
 
@@ -503,9 +475,19 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     for (int i = 0; i < rig; i++) names_add(&names, form_name(document->rigs[i]));
     form->name = pool_text(&form->pool, names_add(&names, form_name(source)), "", "");
     names_free(&names);
-    if (form->kind->open(range->posing, rig, &pose, form, error)) return true;
-    form_close(form);
-    return false;
+    form->gltf = pose.model.gltf;
+    form->figure = pose.model.figure;
+    form->soft = form->figure ? form->figure->character.node : -1;
+    if (!form->kind->open(range->posing, rig, &pose, form, error)) {
+        form_close(form);
+        return false;
+    }
+    for (int n = 0; n < form->gltf->node_count; n++) {
+        if (!shows(form, n)) continue;
+        const struct gltf_mesh *mesh = &form->gltf->meshes[form->gltf->nodes[n].mesh];
+        for (int p = 0; p < mesh->part_count; p++) form->vertex_count += own_vertices(&mesh->parts[p]);
+    }
+    return true;
 }
 
 void form_close(struct form *form)
@@ -535,7 +517,7 @@ void keys_close_loop(float *rows, int width, int count)
 bool keys_collect(struct export_range *range, int rig, struct form *form, struct keys *keys, struct error *error)
 {
     const size_t count = (size_t)range->key_count,
-                 width = 3 + 10 * (size_t)form->joint_count + (size_t)form->target_count;
+                 width = 3 + 10 * (size_t)form->joint_count + (size_t)form->shape.target_count;
     *keys = (struct keys){.count = range->key_count, .width = (int)width, .joints = form->joint_count};
     if (!need_has_room(count * width * sizeof *keys->rows)) return fail_no_memory(error, form->name);
     keys->rows = pool_take(&form->pool, count * width, sizeof *keys->rows);

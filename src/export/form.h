@@ -7,6 +7,7 @@
 #include "base/names.h"
 #include "base/need.h"
 #include "export/export.h"
+#include "model/gltf_write.h"
 
 enum { FORM_INFLUENCES = 4, FORMAT_SUMMARY = 96 };
 
@@ -92,6 +93,7 @@ enum { FORM_MESH = 1, FORM_JOINTS = 2, FORM_POINTS = 4, FORM_FILE = 8, FORM_IN_M
 
 struct form_joint {
     const char *name;
+    int node;        ///< of the model
     int parent;      ///< −1: the root
     float offset[3]; ///< at rest, relative to the parent
     float bind[3];   ///< position in the mesh's space; joints at rest are not rotated
@@ -99,8 +101,9 @@ struct form_joint {
 };
 
 struct form_target {
-    struct figure_target figure; ///< offsets of vertices and rotations of normals at weight 1
-    int group, part;             ///< a coordinate, whose targets are scaled equally, and which part of it
+    int group;   ///< a coordinate, whose targets are scaled equally
+    int source;  ///< its number in the model's mesh
+    float scale; ///< times which its weight there is the form's
 };
 
 struct form {
@@ -108,20 +111,17 @@ struct form {
     struct pool pool;   ///< of what is made for it, and its keys
     struct names names; ///< of joints, where these must differ
     const char *name;
-    int vertex_count;
-    const float (*position)[3], (*normal)[3], (*color)[3]; ///< colours are linear
-    const uint32_t *indices;
-    int index_count;
-    const struct looks *looks; ///< materials, polygons and per-vertex texture coordinates, or NULL
-    int joint_count;           ///< 0: only the whole mesh and its targets move
-    struct form_joint *joints;
-    int first_bone; ///< joints before it only hold the mesh
-    uint16_t (*slots)[FORM_INFLUENCES];
-    float (*weights)[FORM_INFLUENCES];
-    int target_count;
-    struct form_target *targets;
-    const struct character *character; ///< the targets' coordinates, or NULL
-    void *owned;                       ///< private to the kind
+    const struct gltf *gltf;      ///< the model that is posed; of a character form_gltf()
+    const struct gltf_clip *clip; ///< of a character, that plays; NULL: none
+    const struct figure *figure;  ///< its soft mesh; NULL: none
+    int soft;                     ///< the node of that, if drives move its morph weights; −1: none
+    int vertex_count;             ///< for points
+    struct gltf_shape shape;      ///< its mesh, where the form holds one, or only its targets' names
+    int joint_count;              ///< 0: only the whole mesh and its targets move
+    struct form_joint *joints;    ///< of a character the bones that chains bend
+    int first_bone;               ///< joints before it only hold the mesh
+    struct form_target *targets;  ///< as many as the shape has
+    void *owned;                  ///< private to the kind
 };
 
 /// Joints and weights at one time.
@@ -142,9 +142,6 @@ struct form_kind {
     bool (*open)(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error);
     void (*key)(const struct form *form, const struct rig_pose *pose, struct form_key *key);
-    /// Vertex positions in the node that has the mesh in a .glb, because programs play a point cache inside that; those of several nodes in
-    /// the file's space. Or as on the stage.
-    void (*vertices)(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3]);
     /// Numbers that move the rig at a key, always the same columns in the same order. NULL: none.
     void (*columns)(const struct export_range *range, int rig, const struct rig_pose *pose, int key,
                     form_column *column, void *user);
@@ -175,16 +172,9 @@ char *form_word(struct pool *pool, const char *name);
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error);
 void form_close(struct form *form);
 
-/// form.owned of a character. Its joints are the bones that chains bend.
-struct model_body {
-    const struct gltf *gltf;      ///< form_gltf()
-    const struct gltf_clip *clip; ///< the clip that plays, or NULL
-    int *node;                    ///< of each joint
-    int soft; ///< the node whose morph weights drives move, −1: none. The form's targets are all of its mesh
-    const struct figure *figure; ///< of that
-    int holder;                  ///< the node that has all vertices, −1: none or several
-    float (*posed)[3];           ///< room for a node's vertices
-};
+/// Vertex positions in the node that has the mesh in a .glb, because programs play a point cache inside that; those of several nodes in
+/// the file's space. Or as on the stage.
+void form_vertices(const struct form *form, const struct rig_pose *pose, bool as_shown, float (*positions)[3]);
 
 // --- all keys of a rig, for animation formats
 

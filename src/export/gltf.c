@@ -20,7 +20,7 @@
 static void make_targets(struct form *form, const struct gltf_weights *weights, int weights_count,
                          struct gltf_retargeting *r)
 {
-    const size_t count = (size_t)form->target_count;
+    const size_t count = (size_t)form->shape.target_count;
     float *low = pool_take(&form->pool, count, sizeof *low), *high = pool_take(&form->pool, count, sizeof *high);
     for (const struct gltf_weights *of = weights; r->clamped && of < weights + weights_count; of++) {
         for (int row = of->is_cubic; row < of->rows; row += of->is_cubic ? 3 : 1) {
@@ -32,11 +32,11 @@ static void make_targets(struct form *form, const struct gltf_weights *weights, 
         }
     }
     r->pool = &form->pool;
-    r->before = r->count = form->target_count;
+    r->before = r->count = form->shape.target_count;
     r->list = pool_take(&form->pool, 2 * count, sizeof *r->list);
     for (int t = 0; t < r->before; t++) {
         struct gltf_retarget *target = &r->list[t];
-        *target = (struct gltf_retarget){.source = t, .scale = 1, .name = form->targets[t].figure.name};
+        *target = (struct gltf_retarget){.source = t, .scale = 1, .name = form->shape.targets[t].name};
         // The largest |weight| of a group's targets, at least 1: weights are divided by it.
         for (int other = 0; other < r->before; other++) {
             if (form->targets[other].group == form->targets[t].group)
@@ -146,25 +146,16 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     make_targets(&form, &weights, 1, &targets);
 
     struct gltf_file *file = &scene->file;
-    struct gltf_shape shape = {.name = form.name,
-                               .vertex_count = form.vertex_count,
-                               .position = form.position,
-                               .normal = form.normal,
-                               .color = form.color,
-                               .uv = form.looks ? (const float(*)[2])form.looks->uv : NULL,
-                               .joints = (const uint16_t(*)[4])form.slots,
-                               .weights = (const float(*)[4])form.weights,
-                               .indices = form.indices,
-                               .index_count = form.index_count,
-                               .looks = form.looks,
-                               .target_count = targets.count,
-                               .character = form.character};
+    struct gltf_shape shape = form.shape;
+    shape.name = form.name;
+    shape.target_count = targets.count;
     shape.targets = pool_take(&form.pool, (size_t)shape.target_count, sizeof *shape.targets);
     for (int t = 0; t < shape.target_count; t++) {
         const struct gltf_retarget *target = &targets.list[t];
-        const struct figure_target *of = &form.targets[target->source].figure;
-        shape.targets[t] = (struct gltf_shape_target){target->name, of->position, (const float(*)[3])of->normal,
-                                                      of->sign * target->scale, target->scale};
+        shape.targets[t] = form.shape.targets[target->source];
+        shape.targets[t].name = target->name;
+        shape.targets[t].scale *= target->scale;
+        shape.targets[t].turn *= target->scale;
     }
     const json_int_t mesh = gltf_append(file, scene->meshes, gltf_shape_json(&scene->looks, &shape));
     json_t *node = json_pack("{s:s, s:I}", "name", form.name, "mesh", mesh);
@@ -308,9 +299,8 @@ static int compare_times(const void *a, const void *b)
 /// Whether splines move a node in this way: the bones of chains, and the morph weights of what is soft.
 static bool is_moved(const struct form *form, json_int_t node, enum gltf_path path)
 {
-    const struct model_body *body = form->owned;
-    bool moved = path == GLTF_WEIGHTS && node >= 0 && node == body->soft;
-    for (int j = 0; j < form->joint_count && path == GLTF_ROTATION; j++) moved |= body->node[j] == node;
+    bool moved = path == GLTF_WEIGHTS && node >= 0 && node == form->soft;
+    for (int j = 0; j < form->joint_count && path == GLTF_ROTATION; j++) moved |= form->joints[j].node == node;
     return moved;
 }
 
@@ -487,14 +477,13 @@ static void put_sampler(struct gltf_motion *motion, const struct form *form, jso
 static bool collect_clip_keys(struct export_range *range, struct form *form, const struct part *part,
                               struct gltf_motion *motion, struct keys *keys, struct error *error)
 {
-    const struct model_body *body = form->owned;
     const double fps = range->posing->document->fps;
     struct key_times times = {0};
     add_time(&times, part, part->from, true);
     if (part->to > part->from) add_time(&times, part, part->to, true);
     for (int k = 0; k < range->key_count; k++) add_time(&times, part, range_frame(range, k) / fps, false);
-    for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
-        const struct gltf_channel *channel = &body->clip->channels[c];
+    for (int c = 0; form->clip && c < form->clip->channel_count; c++) {
+        const struct gltf_channel *channel = &form->clip->channels[c];
         if (!is_moved(form, channel->node, channel->path)) continue;
         // Its own keys, so that none between two frames is lost. A step has a key just before it.
         for (int round = part->rounds[0]; round <= part->rounds[1]; round++) {
@@ -542,10 +531,9 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
                      struct error *error)
 {
     json_t *root = source->json;
-    const struct model_body *body = form->owned;
     const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]]->model;
     const char *wanted = range->options->clip ? range->options->clip : model->clip ? model->clip : range->title;
-    const struct gltf_clip *playing = body->clip;
+    const struct gltf_clip *playing = form->clip;
     const double fps = range->posing->document->fps;
     struct part part = {.from = range_frame(range, 0) / fps, .to = range_frame(range, range->key_count - 1) / fps};
     part.shift = -part.from;
@@ -575,14 +563,14 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
     size_t i;
     if (!collect_clip_keys(range, form, &part, &motion, &keys, error)) return false;
     char *name = name_from(wanted, strlen(wanted)); // it may be an argument
-    const int known = gltf_find_clip(body->gltf, name);
+    const int known = gltf_find_clip(form->gltf, name);
 
     // A copy of the clip that plays, by the name that it is to have; the clip itself if it has that name.
     static const char *const arrays[] = {"samplers", "channels"};
     json_t *clips = json_object_get(root, "animations"), *nodes = json_object_get(root, "nodes"), *channel;
     json_t *clip =
-        body->clip ? json_deep_copy(json_array_get(clips, (size_t)(body->clip - body->gltf->clips))) : json_object();
-    if (!body->clip || strcmp(body->clip->name, name) != 0) gltf_set(file, clip, "name", json_string(name));
+        form->clip ? json_deep_copy(json_array_get(clips, (size_t)(form->clip - form->gltf->clips))) : json_object();
+    if (!form->clip || strcmp(form->clip->name, name) != 0) gltf_set(file, clip, "name", json_string(name));
     for (i = 0; i < 2; i++)
         if (!json_object_get(clip, arrays[i])) gltf_set(file, clip, arrays[i], json_array());
     free(name);
@@ -604,11 +592,12 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
     }
 
     for (int j = 0; j < form->joint_count; j++)
-        put_sampler(&motion, form, body->node[j], GLTF_ROTATION,
+        put_sampler(&motion, form, form->joints[j].node, GLTF_ROTATION,
                     add_column_sampler(&motion, GLTF_ROTATION, &keys, keys_rotation(j), 4));
-    if (body->soft >= 0)
-        put_sampler(&motion, form, body->soft, GLTF_WEIGHTS,
-                    add_column_sampler(&motion, GLTF_WEIGHTS, &keys, keys_weight(&keys, 0), form->target_count));
+    if (form->soft >= 0)
+        put_sampler(
+            &motion, form, form->soft, GLTF_WEIGHTS,
+            add_column_sampler(&motion, GLTF_WEIGHTS, &keys, keys_weight(&keys, 0), form->shape.target_count));
 
     // The matrices of nodes that the clip moves are split, because glTF does not allow it to move a matrix.
     json_array_foreach(motion.channels, i, channel)
@@ -617,9 +606,9 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
         const int64_t n = glb_integer(target, "node", -1);
         const char *path = json_string_value(json_object_get(target, "path"));
         json_t *node = n < 0 ? NULL : json_array_get(nodes, (size_t)n);
-        if (!json_object_get(node, "matrix") || body->gltf->nodes[n].has_matrix) continue;
+        if (!json_object_get(node, "matrix") || form->gltf->nodes[n].has_matrix) continue;
         if (!path || (strcmp(path, "translation") && strcmp(path, "rotation") && strcmp(path, "scale"))) continue;
-        const struct gltf_place *place = &body->gltf->nodes[n].place;
+        const struct gltf_place *place = &form->gltf->nodes[n].place;
         json_object_del(node, "matrix");
         gltf_set(file, node, "translation", gltf_numbers(file, place->translation, 3));
         gltf_set(file, node, "rotation", gltf_numbers(file, place->rotation, 4));
@@ -694,13 +683,12 @@ static bool put_other(struct export_range *range, int clip, struct gltf_file *fi
 static bool put_targets(const struct export_range *range, struct form *form, struct gltf_file *file,
                         struct glb *source, struct error *error)
 {
-    const struct model_body *body = form->owned;
-    const bool is_painted = figure_is_painted(body->figure);
+    const bool is_painted = figure_is_painted(form->figure);
     struct gltf_retargeting r = {.file = file,
                                  .source = source,
                                  .pool = &form->pool,
-                                 .mesh = body->gltf->nodes[body->soft].mesh,
-                                 .before = form->target_count,
+                                 .mesh = form->gltf->nodes[form->soft].mesh,
+                                 .before = form->shape.target_count,
                                  .clamped = !range->options->is_signed};
     bool done = gltf_find_weights(&r, error), changes = is_painted;
     if (done) make_targets(form, r.clips, r.clip_count, &r); // for the weights of all clips together
@@ -714,12 +702,12 @@ static bool put_targets(const struct export_range *range, struct form *form, str
         size_t i;
         json_array_foreach(json_object_get(known, "coordinates"), i, entry)
         {
-            const int coordinate = figure_find(body->figure, json_string_value(json_object_get(entry, "name")));
+            const int coordinate = figure_find(form->figure, json_string_value(json_object_get(entry, "name")));
             if (coordinate < 0) continue;
-            const struct coordinate *c = &body->figure->character.coordinates[coordinate];
+            const struct coordinate *c = &form->figure->character.coordinates[coordinate];
             gltf_set(file, entry, "scale", json_real(c->scale * (double)r.list[c->target[0]].scale));
         }
-        gltf_retarget(&r, &body->gltf->meshes[r.mesh]);
+        gltf_retarget(&r, &form->gltf->meshes[r.mesh]);
     }
     free(r.clips);
     return done;
@@ -735,11 +723,10 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     struct form form;
     struct rig_pose pose;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
-    const struct model_body *body = form.owned;
-    const bool has_clip = form.joint_count > 0 || body->soft >= 0, binary = range->format->is_binary;
+    const bool has_clip = form.joint_count > 0 || form.soft >= 0, binary = range->format->is_binary;
     bool done = range_pose(range, range->rigs[0], 0, &pose, error);
     const float *root = done ? range_root(range, range->rigs[0], &pose) : NULL;
-    if (!done || !glb_open(&source, body->gltf->path, error)) {
+    if (!done || !glb_open(&source, form.gltf->path, error)) {
         form_close(&form);
         return false;
     }
@@ -748,7 +735,7 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     if (!has_clip && is_same && !root) {
         char *data = NULL;
         size_t size;
-        done = check_place(range, &source, error) && file_read(body->gltf->path, GLB_FILE_LIMIT, &data, &size, error);
+        done = check_place(range, &source, error) && file_read(form.gltf->path, GLB_FILE_LIMIT, &data, &size, error);
         if (done) fwrite(data, 1, size, out);
         free(data);
     } else {
@@ -768,14 +755,14 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
             done = put_clip(range, &form, &to, &source, error);
             clips = 1;
         }
-        for (int c = 0; done && has_clip && range->options->all_clips && c < body->gltf->clip_count; c++) {
-            const struct gltf_clip *clip = &body->gltf->clips[c]; // chains do not move in clips of a single pose
-            if (clip == body->clip || !(clip->last > clip->first)) continue;
+        for (int c = 0; done && has_clip && range->options->all_clips && c < form.gltf->clip_count; c++) {
+            const struct gltf_clip *clip = &form.gltf->clips[c]; // chains do not move in clips of a single pose
+            if (clip == form.clip || !(clip->last > clip->first)) continue;
             done = put_other(range, c, &to, &source, error);
             clips++;
         }
 
-        if (done && body->soft >= 0) done = put_targets(range, &form, &to, &source, error);
+        if (done && form.soft >= 0) done = put_targets(range, &form, &to, &source, error);
 
         // All scenes' nodes go under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
         // validators warn of one that has a parent.
@@ -804,12 +791,12 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
     gltf_file_free(&to);
     glb_close(&source);
     if (has_clip) {
-        const bool both = form.joint_count > 0 && body->soft >= 0;
+        const bool both = form.joint_count > 0 && form.soft >= 0;
         range->summary[0] = '\0';
         if (form.joint_count > 0)
             print_more(range->summary, FORMAT_SUMMARY, "%d bones bent by chains%s", form.joint_count,
                        both ? ", " : "");
-        if (body->soft >= 0) print_more(range->summary, FORMAT_SUMMARY, "%d morph targets", form.target_count);
+        if (form.soft >= 0) print_more(range->summary, FORMAT_SUMMARY, "%d morph targets", form.shape.target_count);
         print_more(range->summary, FORMAT_SUMMARY, " in %d clip%s, %ld keys%s", clips, clips == 1 ? "" : "s",
                    range->total, was_packed ? ", meshes decompressed" : "");
     } else {

@@ -84,7 +84,7 @@ bool points_write(struct export_range *range, FILE *out, struct error *error)
         struct rig_pose pose;
         done = range_pose(range, range->rigs[0], k, &pose, error);
         if (!done) break;
-        form.kind->vertices(&form, &pose, range->options->as_shown, positions);
+        form_vertices(&form, &pose, range->options->as_shown, positions);
         motion_print_frame(out, as, (const float(*)[3])positions, form.vertex_count);
         if (ferror(out)) break; // the caller reports the error; writing on to a full disk is useless
         done = range_proceed(range, error);

@@ -138,16 +138,19 @@ struct figure_target figure_target_create(const struct figure *figure, int coord
 {
     const struct character *c = &figure->character;
     const struct coordinate *n = &c->coordinates[coordinate];
-    struct figure_target target = {.sign = part == 1 ? -1.0f : 1.0f, .position = (const float(*)[3])n->parts[part]};
-    target.name = pool_text(pool, n->name, coordinate_endings[part], "");
+    struct figure_target target = {.name = pool_text(pool, n->name, coordinate_endings[part], ""),
+                                   .position = (const float(*)[3])n->parts[part],
+                                   .scale = part == 1 ? -1.0f : 1.0f,
+                                   .turn = 1};
     if (!figure->slopes) return target;
-    target.normal = pool_take(pool, (size_t)c->vertex_count, sizeof *target.normal);
+    float(*normal)[3] = pool_take(pool, (size_t)c->vertex_count, sizeof *normal);
     for (int i = 0; i < c->vertex_count; i++) {
         const struct slope *s = slope_at(figure, coordinate, part, i);
         const vec3s u = vec3_from(figure->tangent[i]), v = glms_vec3_cross(vec3_from(c->normal[i]), u);
         const vec3s sum = glms_vec3_add(glms_vec3_cross(vec3_from(s->u), v), glms_vec3_cross(u, vec3_from(s->v)));
-        for (int k = 0; k < 3; k++) target.normal[i][k] = target.sign * sum.raw[k];
+        for (int k = 0; k < 3; k++) normal[i][k] = target.scale * sum.raw[k];
     }
+    target.normal = (const float(*)[3])normal;
     return target;
 }
 

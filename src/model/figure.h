@@ -52,15 +52,14 @@ void figure_create(struct figure *figure, struct character *character);
 void figure_derive(struct figure *figure);
 void figure_forget(struct figure *figure);
 
-/// A part of a coordinate as a morph target.
+/// A morph target: `scale` times `position`, and `turn` times `normal`; NULL: it leaves normals as they are.
 struct figure_target {
-    char *name;                 ///< "up.re"
-    float sign;                 ///< times `position`: how far it takes vertices
-    const float (*position)[3]; ///< the coordinate's
-    float (*normal)[3];         ///< how it turns normals, or NULL
+    const char *name; ///< "up.re"
+    const float (*position)[3], (*normal)[3];
+    float scale, turn;
 };
 
-/// A target that turns normals, to first order, where the figure is derived: n = t₁ × t₂, and the coordinate moves both tangents. Its
+/// A part of a coordinate as a target that turns normals, to first order, where the figure is derived: n = t₁ × t₂, and the coordinate moves both tangents. Its
 /// memory is the pool's.
 struct figure_target figure_target_create(const struct figure *figure, int coordinate, int part, struct pool *pool);
 

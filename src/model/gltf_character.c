@@ -326,11 +326,8 @@ bool character_write(const char *path, const struct character *character, bool t
                                .character = character};
     shape.targets = pool_take(&pool, COORDINATE_PARTS * (size_t)character->coordinate_count, sizeof *shape.targets);
     for (int k = 0; k < character->coordinate_count; k++) {
-        for (int p = 0; p < coordinate_parts(&character->coordinates[k]); p++) {
-            const struct figure_target of = figure_target_create(&figure, k, p, &pool);
-            shape.targets[shape.target_count++] =
-                (struct gltf_shape_target){of.name, of.position, (const float(*)[3])of.normal, of.sign, 1};
-        }
+        for (int p = 0; p < coordinate_parts(&character->coordinates[k]); p++)
+            shape.targets[shape.target_count++] = figure_target_create(&figure, k, p, &pool);
     }
 
     json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o]}", "asset", "version", "2.0",

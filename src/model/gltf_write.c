@@ -645,7 +645,7 @@ json_t *gltf_shape_json(struct gltf_looks *l, const struct gltf_shape *shape)
     add_attribute(l, attributes, "JOINTS_0", ELEMENTS_JOINTS, shape->joints, shape->vertex_count);
     add_attribute(l, attributes, "WEIGHTS_0", ELEMENTS_WEIGHTS, shape->weights, shape->vertex_count);
     for (int t = 0; t < shape->target_count; t++) {
-        const struct gltf_shape_target *target = &shape->targets[t];
+        const struct figure_target *target = &shape->targets[t];
         json_t *json =
             json_pack("{s:I}", "POSITION", add_vectors(l, shape, target->position, target->scale, any, true));
         if (target->normal)

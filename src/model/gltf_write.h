@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "model/character.h"
+#include "model/figure.h"
 #include "model/gltf.h"
 #include <jansson.h>
 #include <stdio.h>
@@ -143,26 +144,19 @@ struct gltf_looks {
     json_int_t plain[2]; ///< the materials of closed and open parts that have none
 };
 
-/// A morph target: `scale` times `position`, and `turn` times `normal`; NULL: it leaves normals as they are.
-struct gltf_shape_target {
-    const char *name;
-    const float (*position)[3], (*normal)[3];
-    float scale, turn;
-};
-
 /// A mesh. Vertices of the file may be several copies of one here; the arrays but `uv` and `indices` are by vertex here.
 struct gltf_shape {
     const char *name;
     int vertex_count;       ///< of the file
     const uint32_t *source; ///< which vertex each of the file is; NULL: the same
     const float (*position)[3], (*normal)[3], (*color)[3];
-    const float (*uv)[2];              ///< NULL: none
-    const uint16_t (*joints)[4];       ///< NULL: it has no skin
-    const float (*weights)[4];         ///< as `joints`
-    const uint32_t *indices;           ///< vertices of the file
-    int index_count;                   ///< three a triangle
-    const struct looks *looks;         ///< of these; NULL: they have no materials, and are no polygons
-    struct gltf_shape_target *targets; ///< of a character the parts of its coordinates, then any others
+    const float (*uv)[2];          ///< NULL: none
+    const uint16_t (*joints)[4];   ///< NULL: it has no skin
+    const float (*weights)[4];     ///< as `joints`
+    const uint32_t *indices;       ///< vertices of the file
+    int index_count;               ///< three a triangle
+    const struct looks *looks;     ///< of these; NULL: they have no materials, and are no polygons
+    struct figure_target *targets; ///< of a character the parts of its coordinates, then any others
     int target_count;
     const struct character *character; ///< its coordinates go into the extras; NULL: none
 };
