@@ -61,8 +61,9 @@ bool gltf_write(struct export_range *range, FILE *out, struct error *error);
 bool bvh_write(struct export_range *range, FILE *out, struct error *error);
 bool usda_write(struct export_range *range, FILE *out, struct error *error);
 
-/// Writes a rig other than one that is kept in its file as a .glb of its own.
-bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error);
+/// Writes rigs other than characters that are kept in their files.
+bool gltf_write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
+                      struct error *error);
 
 /// Sets the keys, by the options and the document's range.
 bool range_choose_keys(struct export_range *range, struct export_report *report, struct error *error);

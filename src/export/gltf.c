@@ -88,13 +88,6 @@ static json_int_t add_sampler(struct gltf_motion *motion, enum gltf_path path, c
         json_pack("{s:I, s:I, s:s}", "input", motion->times, "output", output, "interpolation", "LINEAR"));
 }
 
-/// Adds a sampler for a column of a rig's keys, and returns its number.
-static json_int_t add_column_sampler(struct gltf_motion *motion, enum gltf_path path, const struct keys *keys,
-                                     int column, int width)
-{
-    return add_sampler(motion, path, keys_at(keys, 0, column), width, keys->width);
-}
-
 /// Adds a channel that moves a node by a sampler.
 static void add_channel(struct gltf_motion *motion, json_int_t node, enum gltf_path path, json_int_t sampler)
 {
@@ -125,10 +118,11 @@ static bool differs(const struct keys *keys, int column, int width, const float 
     return false;
 }
 
+/// Adds a channel for a column of a rig's keys.
 static void add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
                      int column, int width)
 {
-    add_channel(motion, node, path, add_column_sampler(motion, path, keys, column, width));
+    add_channel(motion, node, path, add_sampler(motion, path, keys_at(keys, 0, column), width, keys->width));
 }
 
 static bool add_rig(struct scene *scene, int rig, struct error *error)
@@ -209,8 +203,8 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     return true;
 }
 
-static bool write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
-                        struct error *error)
+bool gltf_write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
+                      struct error *error)
 {
     struct scene scene = {.range = range, .motion = {.file = &scene.file, .key_count = range->key_count}};
     json_t **const arrays[] = {&scene.roots, &scene.nodes,           &scene.meshes,
@@ -248,11 +242,6 @@ static bool write_scene(struct export_range *range, const int *rigs, int count, 
     gltf_looks_free(&scene.looks);
     gltf_file_free(&scene.file);
     return done;
-}
-
-bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error)
-{
-    return write_scene(range, &rig, 1, true, out, error);
 }
 
 // --- a character's own file
@@ -381,31 +370,28 @@ static void cut_sampler(struct gltf_file *file, const struct glb *source, json_t
                                                  [4] = ELEMENTS_TURNS,
                                                  [16] = ELEMENTS_MATRICES};
     const char *interpolation = json_string_value(json_object_get(sampler, "interpolation"));
+    struct pool pool = {0};
     struct glb_numbers times = {0}, values = {0};
     struct error error = {0};
-    bool good = gltf_file_numbers(file, source, glb_integer(sampler, "input", -1), &times, &error) &&
-                gltf_file_numbers(file, source, glb_integer(sampler, "output", -1), &values, &error) &&
-                times.components == 1 && times.count > 0;
+    const bool is_read = gltf_file_numbers(file, source, glb_integer(sampler, "input", -1), &pool, &times, &error) &&
+                         gltf_file_numbers(file, source, glb_integer(sampler, "output", -1), &pool, &values, &error);
     file->without_memory |= error.kind == ERROR_ENVIRONMENT;
-    struct pool pool = {0};
     struct gltf_channel unrolled, result,
-        own = {.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
+        own = {.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION,
+               .interpolation = GLTF_LINEAR,
+               .key_count = times.count,
+               .times = times.values,
+               .values = values.values};
     if (interpolation && strcmp(interpolation, "STEP") == 0) own.interpolation = GLTF_STEP;
     if (interpolation && strcmp(interpolation, "CUBICSPLINE") == 0) own.interpolation = GLTF_CUBIC;
-    const size_t all_values = good ? (size_t)values.count * (size_t)values.components : 0,
+    const size_t all_values = (size_t)values.count * (size_t)values.components,
                  all_keys = (size_t)times.count * (own.interpolation == GLTF_CUBIC ? 3 : 1);
-    good = good && all_values > 0 && all_values % all_keys == 0 && (!is_rotation || all_values == 4 * all_keys);
-    if (good) {
-        own.key_count = times.count;
-        own.components = (int)(all_values / all_keys);
-        own.times = pool_take(&pool, (size_t)times.count, sizeof *own.times);
-        own.values = pool_take(&pool, all_values, sizeof *own.values);
-        for (int k = 0; k < times.count; k++) own.times[k] = (float)times.values[k];
-        for (size_t i = 0; i < all_values; i++) own.values[i] = (float)values.values[i];
+    if (!is_read || times.components != 1 || all_values % all_keys != 0 ||
+        (is_rotation && all_values != 4 * all_keys)) {
+        pool_free(&pool);
+        return;
     }
-    free(times.values);
-    free(values.values);
-    if (!good) return;
+    own.components = (int)(all_values / all_keys);
     const int element = values.components;
     const int stride = stride_of(&own), middle = stride > own.components ? own.components : 0, count = own.key_count;
 
@@ -441,29 +427,30 @@ static void cut_sampler(struct gltf_file *file, const struct glb *source, json_t
     pool_free(&pool);
 }
 
-/// Whether splines move what a channel does.
-static bool is_splines(const struct form *form, const json_t *channel)
+/// What a channel moves; false: nothing that is known.
+static bool find_target(const json_t *channel, json_int_t *node, enum gltf_path *path)
 {
     const json_t *target = json_object_get(channel, "target");
-    const char *path = json_string_value(json_object_get(target, "path"));
-    int p = GLTF_TRANSLATION;
-    while (path && p < GLTF_WEIGHTS && strcmp(paths[p].name, path) != 0) p++;
-    return path && is_moved(form, glb_integer(target, "node", -1), (enum gltf_path)p);
+    const char *name = json_string_value(json_object_get(target, "path"));
+    *node = glb_integer(target, "node", -1);
+    for (int p = GLTF_TRANSLATION; name && p <= GLTF_WEIGHTS; p++) {
+        *path = (enum gltf_path)p;
+        if (strcmp(paths[p].name, name) == 0) return *node >= 0;
+    }
+    return false;
 }
 
 /// Lets a sampler move a node, in the channel that the clip has for that, or a new one.
-static void put_sampler(struct gltf_motion *motion, const struct form *form, json_int_t node, enum gltf_path path,
-                        json_int_t sampler)
+static void put_sampler(struct gltf_motion *motion, json_int_t node, enum gltf_path path, json_int_t sampler)
 {
     json_t *channel;
     size_t i;
     bool found = false;
     json_array_foreach(motion->channels, i, channel)
     {
-        const json_t *target = json_object_get(channel, "target");
-        const char *own = json_string_value(json_object_get(target, "path"));
-        if (!is_splines(form, channel) || glb_integer(target, "node", -1) != node) continue;
-        if (strcmp(own, paths[path].name) != 0) continue;
+        json_int_t own;
+        enum gltf_path by;
+        if (!find_target(channel, &own, &by) || own != node || by != path) continue;
         gltf_set(motion->file, channel, "sampler", json_integer(sampler));
         found = true;
     }
@@ -581,33 +568,33 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
         bool *done = need_zeroed(samplers + 1, sizeof *done);
         json_array_foreach(motion.channels, i, channel)
         {
-            const char *path = json_string_value(json_object_get(json_object_get(channel, "target"), "path"));
             const size_t s = (size_t)glb_integer(channel, "sampler", -1);
-            if (s >= samplers || done[s] || is_splines(form, channel)) continue;
+            json_int_t node;
+            enum gltf_path path;
+            const bool is_known = find_target(channel, &node, &path);
+            if (s >= samplers || done[s] || (is_known && is_moved(form, node, path))) continue;
             done[s] = true;
-            cut_sampler(file, source, json_array_get(motion.samplers, s), path && strcmp(path, "rotation") == 0,
-                        &part);
+            cut_sampler(file, source, json_array_get(motion.samplers, s), is_known && path == GLTF_ROTATION, &part);
         }
         free(done);
     }
 
     for (int j = 0; j < form->joint_count; j++)
-        put_sampler(&motion, form, form->joints[j].node, GLTF_ROTATION,
-                    add_column_sampler(&motion, GLTF_ROTATION, &keys, keys_rotation(j), 4));
+        put_sampler(&motion, form->joints[j].node, GLTF_ROTATION,
+                    add_sampler(&motion, GLTF_ROTATION, keys_at(&keys, 0, keys_rotation(j)), 4, keys.width));
     if (form->soft >= 0)
-        put_sampler(
-            &motion, form, form->soft, GLTF_WEIGHTS,
-            add_column_sampler(&motion, GLTF_WEIGHTS, &keys, keys_weight(&keys, 0), form->shape.target_count));
+        put_sampler(&motion, form->soft, GLTF_WEIGHTS,
+                    add_sampler(&motion, GLTF_WEIGHTS, keys_at(&keys, 0, keys_weight(&keys, 0)),
+                                form->shape.target_count, keys.width));
 
     // The matrices of nodes that the clip moves are split, because glTF does not allow it to move a matrix.
     json_array_foreach(motion.channels, i, channel)
     {
-        const json_t *target = json_object_get(channel, "target");
-        const int64_t n = glb_integer(target, "node", -1);
-        const char *path = json_string_value(json_object_get(target, "path"));
-        json_t *node = n < 0 ? NULL : json_array_get(nodes, (size_t)n);
+        json_int_t n;
+        enum gltf_path path;
+        if (!find_target(channel, &n, &path) || path == GLTF_WEIGHTS) continue;
+        json_t *node = json_array_get(nodes, (size_t)n);
         if (!json_object_get(node, "matrix") || form->gltf->nodes[n].has_matrix) continue;
-        if (!path || (strcmp(path, "translation") && strcmp(path, "rotation") && strcmp(path, "scale"))) continue;
         const struct gltf_place *place = &form->gltf->nodes[n].place;
         json_object_del(node, "matrix");
         gltf_set(file, node, "translation", gltf_numbers(file, place->translation, 3));
@@ -818,5 +805,5 @@ bool gltf_write(struct export_range *range, FILE *out, struct error *error)
         return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",
                     form_name(rig), range->rig_choice);
     }
-    return write_scene(range, range->rigs, range->rig_count, range->format->is_binary, out, error);
+    return gltf_write_scene(range, range->rigs, range->rig_count, range->format->is_binary, out, error);
 }

@@ -901,7 +901,7 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error)
             char *data = NULL;
             size_t size = 0;
             FILE *file = open_memstream(&data, &size);
-            const bool made = file && gltf_write_rig(range, rig, file, error);
+            const bool made = file && gltf_write_scene(range, &rig, 1, true, file, error);
             const bool whole = file && fclose(file) == 0;
             if (!made || !whole) {
                 free(data);

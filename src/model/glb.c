@@ -235,7 +235,8 @@ bool glb_is_stored(const struct glb *glb, int64_t index)
     return json_object_get(accessor, "bufferView") || json_object_get(accessor, "sparse");
 }
 
-bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbers, struct error *error)
+bool glb_numbers(const struct glb *glb, int64_t index, struct pool *pool, struct glb_numbers *numbers,
+                 struct error *error)
 {
     const json_t *accessors = json_object_get(glb->json, "accessors");
     const json_t *accessor = index >= 0 ? json_array_get(accessors, (size_t)index) : NULL;
@@ -255,11 +256,11 @@ bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbe
                     "%s: accessors[%lld].count: expected at most %zu for a file of this size, got %lld", glb->path,
                     (long long)index, most, (long long)count);
     numbers->count = (int)count;
-    numbers->values = calloc((size_t)count * (size_t)e.components, sizeof *numbers->values);
+    numbers->values = pool_try(pool, (size_t)count * (size_t)e.components, sizeof *numbers->values);
     if (!numbers->values) return fail_no_memory(error, glb->path);
     const size_t total = (size_t)count * (size_t)e.components;
     for (size_t n = 0; e.bytes && n < total; n++) // without a buffer view (and bytes) all are zero
-        numbers->values[n] = element_at(&e, (int)(n / (size_t)e.components), (int)(n % (size_t)e.components));
+        numbers->values[n] = (float)element_at(&e, (int)(n / (size_t)e.components), (int)(n % (size_t)e.components));
     const json_t *sparse = json_object_get(accessor, "sparse");
     const json_t *places = json_object_get(sparse, "indices");
     const int64_t changes = sparse ? glb_integer(sparse, "count", -1) : 0;
@@ -270,13 +271,11 @@ bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbe
         const double at = element_at(&indices, i, 0);
         read = at >= 0 && at < numbers->count;
         for (int k = 0; read && k < e.components; k++)
-            numbers->values[(size_t)at * (size_t)e.components + (size_t)k] = element_at(&e, i, k);
+            numbers->values[(size_t)at * (size_t)e.components + (size_t)k] = (float)element_at(&e, i, k);
     }
     bool finite = read;
     for (size_t n = 0; finite && n < total; n++) finite = isfinite(numbers->values[n]);
     if (finite) return true;
-    free(numbers->values);
-    numbers->values = NULL;
     if (!read) return outside(glb, index, error);
     return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected finite numbers, got NaN or infinity", glb->path,
                 (long long)index);

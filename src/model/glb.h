@@ -64,13 +64,15 @@ const char *glb_missing_codec(const char *extension);
 /// Whether the file has compressed meshes that glb_read_buffers() decompresses.
 bool glb_is_packed(const struct glb *glb);
 
-/// The numbers of an accessor: normalised integers as −1 … 1, sparse elements in their places.
+/// The numbers of an accessor: normalised integers as −1 … 1, sparse elements in their places. Single precision has all indices of the
+/// vertices that a model may have.
 struct glb_numbers {
-    double *values; ///< the caller frees it
+    float *values; ///< the pool's
     int count, components;
 };
 
-bool glb_numbers(const struct glb *glb, int64_t accessor, struct glb_numbers *numbers, struct error *error);
+bool glb_numbers(const struct glb *glb, int64_t accessor, struct pool *pool, struct glb_numbers *numbers,
+                 struct error *error);
 
 // --- the readers of glTF characters; private to src/model/gltf_*.c
 
@@ -85,6 +87,7 @@ struct gltf_reader {
     struct glb file;
     struct gltf *gltf;
     struct error *error;
+    struct pool work;     ///< numbers of the thing that is being read
     bool stored;          ///< gltf_read_stored()
     char place[96];       ///< in the JSON, for messages
     struct gltf_uv *uvs;  ///< of each material

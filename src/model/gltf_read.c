@@ -134,12 +134,10 @@ enum { LINES = 1, TRIANGLES = 4, STRIP = 5, FAN = 6 };
 static bool read_numbers(struct gltf_reader *r, const json_t *attributes, const char *name, int least, int most,
                          int count, struct glb_numbers *numbers)
 {
-    if (!glb_numbers(&r->file, glb_integer(attributes, name, -1), numbers, r->error)) return false;
+    if (!glb_numbers(&r->file, glb_integer(attributes, name, -1), &r->work, numbers, r->error)) return false;
     if (numbers->components >= least && numbers->components <= most && numbers->count == count) return true;
-    gltf_bad(r, ".attributes.%s: expected %d elements of %d numbers, got %d of %d", name, count, most, numbers->count,
-             numbers->components);
-    free(numbers->values);
-    return false;
+    return gltf_bad(r, ".attributes.%s: expected %d elements of %d numbers, got %d of %d", name, count, most,
+                    numbers->count, numbers->components);
 }
 
 /// An attribute as rows of `width` floats; NULL if it is missing. A missing fourth component is 1.
@@ -151,11 +149,10 @@ static bool read_rows(struct gltf_reader *r, const json_t *attributes, const cha
     if (!read_numbers(r, attributes, name, width == 4 ? 3 : width, width, count, &numbers)) return false;
     float *const rows = gltf_make(r, (size_t)count, (size_t)width * sizeof *rows), *row = rows;
     memcpy(array, &rows, sizeof rows);
-    const double *from = numbers.values;
+    const float *from = numbers.values;
     for (int i = 0; row && i < count; i++, row += width, from += numbers.components) {
-        for (int k = 0; k < width; k++) row[k] = k < numbers.components ? (float)from[k] : 1;
+        for (int k = 0; k < width; k++) row[k] = k < numbers.components ? from[k] : 1;
     }
-    free(numbers.values);
     return rows;
 }
 
@@ -166,20 +163,16 @@ static bool read_four(struct gltf_reader *r, const json_t *attributes, int set, 
     char name[2][16] = {"JOINTS_0", "WEIGHTS_0"};
     bool whole = true;
     name[0][7] = name[1][8] = (char)('0' + set);
-    if (!read_numbers(r, attributes, name[0], 4, 4, part->vertex_count, &joints)) return false;
-    if (!read_numbers(r, attributes, name[1], 4, 4, part->vertex_count, &weights)) {
-        free(joints.values);
+    if (!read_numbers(r, attributes, name[0], 4, 4, part->vertex_count, &joints) ||
+        !read_numbers(r, attributes, name[1], 4, 4, part->vertex_count, &weights))
         return false;
-    }
     for (int n = 0; whole && n < 4 * part->vertex_count; n++) {
         int vertex = n / 4, k = n % 4;
-        double joint = joints.values[n], weight = weights.values[n];
-        whole = joint >= 0 && joint <= UINT16_MAX && joint == floor(joint) && weight < 1e6;
+        float joint = joints.values[n], weight = weights.values[n];
+        whole = joint >= 0 && joint <= UINT16_MAX && joint == floorf(joint) && weight < 1e6f;
         part->joints[vertex][4 * set + k] = whole ? (uint16_t)joint : 0;
-        part->weights[vertex][4 * set + k] = weight > 0 ? (float)weight : 0;
+        part->weights[vertex][4 * set + k] = weight > 0 ? weight : 0;
     }
-    free(joints.values);
-    free(weights.values);
     return whole ||
            gltf_bad(r, ".attributes.%s: expected numbers of joints, and weights from 0 to 1, got others", name[0]);
 }
@@ -282,19 +275,19 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
     // Triangles in the file's order; without indices, in order of vertices.
     struct glb_numbers numbers = {.count = part->vertex_count, .components = 1};
     const bool indexed = json_object_get(primitive, "indices");
-    if (indexed && !glb_numbers(&r->file, glb_integer(primitive, "indices", -1), &numbers, r->error)) return false;
+    if (indexed && !glb_numbers(&r->file, glb_integer(primitive, "indices", -1), &r->work, &numbers, r->error))
+        return false;
     bool good =
         numbers.components == 1 || gltf_bad(r, ".indices: expected one number each, got %d", numbers.components);
     uint32_t *corners = good ? gltf_make(r, (size_t)numbers.count, sizeof *corners) : NULL;
     good = corners;
     for (int i = 0; good && i < numbers.count; i++) {
-        const double index = indexed ? numbers.values[i] : i;
+        const double index = indexed ? (double)numbers.values[i] : i;
         good = (index >= 0 && index < (double)count && index == floor(index)) ||
                gltf_bad(r, ".indices: expected numbers from 0 to %d, got %g at place %d", part->vertex_count - 1,
                         index, i);
         if (good) corners[i] = (uint32_t)index;
     }
-    free(numbers.values);
     if (!good) return false;
     part->indices = corners;
     part->index_count = numbers.count - numbers.count % 3;
@@ -388,6 +381,7 @@ static bool read_meshes(struct gltf_reader *r)
             struct gltf_part *part = &mesh->parts[mesh->part_count];
             gltf_at(r, "meshes[%zu].primitives[%zu]", m, i);
             if (!read_part(r, primitive, first, mesh, part)) return false;
+            pool_free(&r->work);
             part->primitive = (int)i;
             if (part->index_count > 0 && mesh->part_count++ == 0) first = primitive;
         }
@@ -628,11 +622,11 @@ static bool read_skins(struct gltf_reader *r)
         }
 
         struct glb_numbers numbers;
-        if (!glb_numbers(&r->file, glb_integer(json, "inverseBindMatrices", -1), &numbers, r->error)) return false;
+        if (!glb_numbers(&r->file, glb_integer(json, "inverseBindMatrices", -1), &r->work, &numbers, r->error))
+            return false;
         bool fits = numbers.components == 16 && numbers.count >= skin->joint_count;
         for (int n = 0; fits && n < 16 * skin->joint_count; n++)
-            skin->inverse_bind[n / 16][n % 16] = (float)numbers.values[n];
-        free(numbers.values);
+            skin->inverse_bind[n / 16][n % 16] = numbers.values[n];
         if (!fits)
             return gltf_bad(r, ".inverseBindMatrices: expected %d matrices of 16 numbers, got %d of %d",
                             skin->joint_count, numbers.count, numbers.components);
@@ -651,7 +645,7 @@ static bool read_skins(struct gltf_reader *r)
 
 // --- animations
 
-/// The numbers of a sampler's accessor; the caller frees them. NULL with an error.
+/// The numbers of a sampler's accessor. NULL with an error.
 static float *read_floats(struct gltf_reader *r, const json_t *sampler, const char *key, int *count, int *components)
 {
     struct glb_numbers numbers;
@@ -661,14 +655,11 @@ static float *read_floats(struct gltf_reader *r, const json_t *sampler, const ch
         gltf_bad(r, ".%s: expected an accessor, got none", key);
         return NULL;
     }
-    if (!glb_numbers(&r->file, accessor, &numbers, r->error)) return NULL;
-    const size_t total = (size_t)numbers.count * (size_t)numbers.components;
-    float *values = gltf_make(r, total, sizeof *values);
-    for (size_t i = 0; values && i < total; i++) values[i] = (float)numbers.values[i];
-    free(numbers.values);
+    if (!glb_numbers(&r->file, accessor, &r->gltf->pool, &numbers, r->error)) return NULL;
+    r->file.room -= (size_t)numbers.count * (size_t)numbers.components * sizeof *numbers.values;
     *count = numbers.count;
     *components = numbers.components;
-    return values;
+    return numbers.values;
 }
 
 static bool read_clips(struct gltf_reader *r)
@@ -850,6 +841,7 @@ static bool read_open(struct gltf_reader *r, bool is_open)
     *r->gltf = (struct gltf){0};
     const bool done = is_open && read_all(r);
     r->gltf->room = r->file.room;
+    pool_free(&r->work);
     glb_close(&r->file);
     if (!done) gltf_free(r->gltf);
     return done;

@@ -383,7 +383,7 @@ json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *c,
 
 // --- the morph targets of a mesh that the file has
 
-bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, int64_t accessor,
+bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, int64_t accessor, struct pool *pool,
                        struct glb_numbers *numbers, struct error *error)
 {
     struct glb now = *source;
@@ -392,7 +392,7 @@ bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, i
     memcpy(now.buffers, source->buffers, (size_t)source->buffer_count * sizeof *now.buffers);
     now.buffers[file->buffer].bytes = (struct glb_bytes){(unsigned char *)file->data, file->size};
     now.room += GLB_GROWTH * file->size;
-    const bool done = glb_numbers(&now, accessor, numbers, error);
+    const bool done = glb_numbers(&now, accessor, pool, numbers, error);
     free(now.buffers);
     return done;
 }
@@ -415,16 +415,12 @@ bool gltf_find_weights(struct gltf_retargeting *r, struct error *error)
                          glb_integer(node, "mesh", -1) != r->mesh;
             for (int n = 0; n < r->clip_count; n++) known |= r->clips[n].sampler == sampler;
             if (known) continue;
-            if (!gltf_file_numbers(r->file, r->source, glb_integer(sampler, "output", -1), &numbers, error))
+            if (!gltf_file_numbers(r->file, r->source, glb_integer(sampler, "output", -1), r->pool, &numbers, error))
                 return false;
             const char *how = json_string_value(json_object_get(sampler, "interpolation"));
-            const int count = numbers.count * numbers.components;
-            float *values = pool_take(r->pool, (size_t)count, sizeof *values);
-            for (int n = 0; n < count; n++) values[n] = (float)numbers.values[n];
-            free(numbers.values);
             r->clips = need_more(r->clips, (size_t)r->clip_count + 1, sizeof *r->clips);
-            r->clips[r->clip_count++] = (struct gltf_weights){.values = values,
-                                                              .rows = count / r->before,
+            r->clips[r->clip_count++] = (struct gltf_weights){.values = numbers.values,
+                                                              .rows = numbers.count * numbers.components / r->before,
                                                               .stride = r->before,
                                                               .is_cubic = how && strcmp(how, "CUBICSPLINE") == 0,
                                                               .sampler = sampler};
@@ -478,15 +474,12 @@ static json_t *make_target(const struct gltf_retargeting *r, const struct gltf_r
     {
         struct glb_numbers numbers;
         struct error error = {0};
-        const bool is_read = json_is_integer(accessor) &&
-                             gltf_file_numbers(r->file, r->source, json_integer_value(accessor), &numbers, &error);
+        const bool is_read =
+            json_is_integer(accessor) &&
+            gltf_file_numbers(r->file, r->source, json_integer_value(accessor), r->pool, &numbers, &error);
         r->file->without_memory |= error.kind == ERROR_ENVIRONMENT;
-        if (!is_read) continue;
-        float *from = need((size_t)numbers.count, (size_t)numbers.components * sizeof *from);
-        for (int n = 0; n < numbers.count * numbers.components; n++) from[n] = (float)numbers.values[n];
-        if (numbers.components == 3) add_offsets(r, own, name, from, (size_t)numbers.count, wanted->scale);
-        free(from);
-        free(numbers.values);
+        if (is_read && numbers.components == 3)
+            add_offsets(r, own, name, numbers.values, (size_t)numbers.count, wanted->scale);
     }
     return own;
 }

@@ -118,7 +118,7 @@ struct gltf_retargeting {
 };
 
 /// The numbers of an accessor of the file, or of one that was added.
-bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, int64_t accessor,
+bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, int64_t accessor, struct pool *pool,
                        struct glb_numbers *numbers, struct error *error);
 
 /// Finds the weights of the mesh in all clips. Errors: numbers that cannot be read.
