@@ -295,16 +295,11 @@ static bool is_moved(const struct form *form, json_int_t node, enum gltf_path pa
 
 // --- other channels, where the part is not the clip
 
-static int stride_of(const struct gltf_channel *channel)
-{
-    return channel->components * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
-}
-
 /// Appends a key, whose tangents are 0 where only a value is given. Where a round ends with another value than the next begins with, it ends just
 /// before that.
 static void push_key(struct gltf_channel *to, double time, const float *key, bool is_whole)
 {
-    const int n = to->components, stride = stride_of(to), middle = stride > n ? n : 0;
+    const int n = to->components, stride = gltf_stride(to), middle = stride > n ? n : 0;
     const size_t size = (size_t)stride;
     const int last = to->key_count - 1;
     float *const end = to->values + (size_t)to->key_count * size;
@@ -332,13 +327,13 @@ static void reserve_keys(struct gltf_channel *channel, struct pool *pool, size_t
     *channel = *like;
     channel->key_count = 0;
     channel->times = pool_take(pool, keys, sizeof *channel->times);
-    channel->values = pool_take(pool, keys * (size_t)stride_of(like), sizeof *channel->values);
+    channel->values = pool_take(pool, keys * (size_t)gltf_stride(like), sizeof *channel->values);
 }
 
 /// Adds the curve's value and slope at a time between its keys.
 static void push_between(struct gltf_channel *to, const struct gltf_channel *from, double time)
 {
-    const int n = from->components, stride = stride_of(from);
+    const int n = from->components, stride = gltf_stride(from);
     float *key = need_zeroed(3 * (size_t)n, sizeof *key);
     int k = 0;
     while (k + 1 < from->key_count && (double)from->times[k + 1] <= time) k++;
@@ -393,7 +388,8 @@ static void cut_sampler(struct gltf_file *file, const struct glb *source, json_t
     }
     own.components = (int)(all_values / all_keys);
     const int element = values.components;
-    const int stride = stride_of(&own), middle = stride > own.components ? own.components : 0, count = own.key_count;
+    const int stride = gltf_stride(&own), middle = stride > own.components ? own.components : 0,
+              count = own.key_count;
 
     // The keys of all rounds, in the exported file's times. A channel that begins after its clip, or ends before, stands still there.
     reserve_keys(&unrolled, &pool, (size_t)(count + 2) * (size_t)(part->rounds[1] - part->rounds[0] + 1), &own);

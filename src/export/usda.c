@@ -535,7 +535,6 @@ struct run {
     int node;
     const struct gltf_part *parts;
     int count;
-    int owner; ///< the first part whose vertices others share, which leave theirs out; −1: none, as in a character's .pc2
     int influences; ///< joints a vertex; 0: all hangs at the node's own
     const char *name;
 };
@@ -551,21 +550,19 @@ static int skeleton_of(const struct run *run)
     return skin >= 0 ? skin : 0;
 }
 
-/// Whether a part's vertices are written with another's: where texture coordinates differ they are not.
+/// Whether a part has the vertices of the first, which are written once, except of a character, whose materials may differ in colour. Where
+/// texture coordinates differ it has its own.
 static bool is_left_out(const struct run *run, int p)
 {
     const struct gltf_part *part = &run->parts[p];
-    const struct gltf_part *owner = run->owner >= 0 && p != run->owner ? &run->parts[run->owner] : NULL;
-    return owner && part->position == owner->position && part->uv == owner->uv;
+    return run->model->is_own && p > 0 && part->position == run->parts->position && part->uv == run->parts->uv;
 }
 
 /// The vertex of the prim that a part's first one is; `next` counts them.
-static int first_vertex(const struct run *run, int p, int *owner, int *next)
+static int first_vertex(const struct run *run, int p, int *next)
 {
-    if (is_left_out(run, p)) return *owner;
-    const int first = *next;
-    if (p == run->owner) *owner = first;
-    *next += run->parts[p].vertex_count;
+    const int first = is_left_out(run, p) ? 0 : *next;
+    *next += is_left_out(run, p) ? 0 : run->parts[p].vertex_count;
     return first;
 }
 
@@ -699,13 +696,13 @@ static void write_run(struct run *run)
     if (run->parts->normal) write_vertices(run, "normal3f[] normals", NORMALS);
 
     // The material's colour times the vertex's: where two materials meet, that of the later triangle.
-    int count = 0, owner = 0, next = 0;
-    for (int p = 0; p < run->count; p++) first_vertex(run, p, &owner, &count);
+    int count = 0, next = 0;
+    for (int p = 0; p < run->count; p++) first_vertex(run, p, &count);
     float(*tint)[3] = need(((size_t)count + 1), sizeof *tint);
     for (int i = 0; i < 3 * count; i++) tint[i / 3][i % 3] = 1;
     for (int p = 0; p < run->count; p++) {
         const struct gltf_part *part = &run->parts[p];
-        const int first = first_vertex(run, p, &owner, &next);
+        const int first = first_vertex(run, p, &next);
         for (int i = 0; i < part->index_count; i++) {
             const uint32_t v = part->indices[i];
             for (int k = 0; k < 3; k++)
@@ -728,11 +725,11 @@ static void write_run(struct run *run)
         }
     }
     before = "";
-    owner = next = 0;
+    next = 0;
     fputs("]\n            int[] faceVertexIndices = [", out);
     for (int p = 0; p < run->count; p++) {
         const struct gltf_part *part = &run->parts[p];
-        const uint32_t first = (uint32_t)first_vertex(run, p, &owner, &next);
+        const uint32_t first = (uint32_t)first_vertex(run, p, &next);
         for (int i = 0; i < part->index_count; i++) {
             if (i % 3 < 2 && gltf_joins(part, i - i % 3)) continue;
             fprintf(out, "%s%u", before, first + part->indices[i]);
@@ -748,11 +745,10 @@ static void write_run(struct run *run)
         const int joint = model->joint_of[run->node];
         double bind[16];
         usda_bind(run->model, skeleton_of(run), joint, bind);
-        fprintf(out, "            int[] primvars:skel:jointIndices = [%d] (\n                elementSize = 1\n",
-                joint);
-        fputs("                interpolation = \"constant\"\n            )\n", out);
-        fputs("            float[] primvars:skel:jointWeights = [1] (\n                elementSize = 1\n", out);
-        fputs("                interpolation = \"constant\"\n            )\n", out);
+        static const char once[] = " (\n                elementSize = 1\n"
+                                   "                interpolation = \"constant\"\n            )\n";
+        fprintf(out, "            int[] primvars:skel:jointIndices = [%d]%s", joint, once);
+        fprintf(out, "            float[] primvars:skel:jointWeights = [1]%s", once);
         fputs("            matrix4d primvars:skel:geomBindTransform = ", out);
         usda_matrix(out, bind);
         fputc('\n', out);
@@ -861,14 +857,12 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
     for (int n = 0; done && n < gltf->node_count; n++) {
         const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
         for (int p = 0, end; mesh && p < mesh->part_count; p = end) {
-            struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .owner = -1};
+            struct run run = {.model = model, .node = n, .parts = mesh->parts + p};
             const bool skinned = has_skin(model, n, run.parts), is_flat = !run.parts->normal;
-            for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned &&
-                          !mesh->parts[end].normal == is_flat;
-                 end++) {
-                if (model->is_own && run.owner < 0 && mesh->parts[end].position == mesh->parts->position)
-                    run.owner = end - p;
-            }
+            end = p;
+            while (end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned &&
+                   !mesh->parts[end].normal == is_flat)
+                end++;
             run.count = end - p;
             run.name = usda_name(&model->prims, gltf->nodes[n].name, false);
             write_run(&run);

@@ -128,12 +128,6 @@ void figure_derive(struct figure *figure)
     }
 }
 
-void figure_forget(struct figure *figure)
-{
-    figure->character = (struct character){0};
-    figure_free(figure);
-}
-
 struct figure_target figure_target_create(const struct figure *figure, int coordinate, int part, struct pool *pool)
 {
     const struct character *c = &figure->character;

@@ -48,9 +48,8 @@ bool figure_has_room(const struct character *character);
 /// Takes a character over, leaves it empty, and derives the rest.
 void figure_create(struct figure *figure, struct character *character);
 
-/// Only the derivatives, for a figure with its character set and all else zero. figure_forget() frees them but not the character.
+/// Only the derivatives, for a figure with its character set and all else zero: free the pool, and the character stays.
 void figure_derive(struct figure *figure);
-void figure_forget(struct figure *figure);
 
 /// A morph target: `scale` times `position`, and `turn` times `normal`; NULL: it leaves normals as they are.
 struct figure_target {

@@ -132,6 +132,12 @@ struct gltf_channel {
     float *values; ///< `components` a key; three times as many for GLTF_CUBIC: tangent in, value, tangent out
 };
 
+/// Numbers from one key to the next.
+static inline int gltf_stride(const struct gltf_channel *channel)
+{
+    return channel->components * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+}
+
 struct gltf_clip {
     char *name;         ///< "clip 2" where the file has none; no two are alike
     double first, last; ///< seconds, of its first and last key

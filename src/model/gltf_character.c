@@ -338,6 +338,6 @@ bool character_write(const char *path, const struct character *character, bool t
     gltf_looks_free(&looks);
     gltf_file_free(&file);
     pool_free(&pool);
-    figure_forget(&figure);
+    pool_free(&figure.pool);
     return done;
 }

@@ -174,10 +174,24 @@ static void cubic(const float *key, const float *arriving, int components, float
                  T * (s3 - s2) * arriving[k];
 }
 
+/// The value between two keys `T` seconds apart, whose numbers begin at `from` and `to`.
+static void between(const struct gltf_channel *channel, const float *from, const float *to, float s, double T,
+                    float *out)
+{
+    const int n = channel->components;
+    if (channel->interpolation == GLTF_CUBIC) {
+        cubic(from, to, n, s, (float)T, out);
+    } else if (channel->path == GLTF_ROTATION) {
+        slerp(from, to, s, out);
+    } else {
+        for (int k = 0; k < n; k++) out[k] = (1 - s) * from[k] + s * to[k];
+    }
+}
+
 void gltf_channel_at(const struct gltf_channel *channel, double time, float *out)
 {
     if (channel->interpolation == GLTF_STEP) time += ROUNDING * fabs(time);
-    int key = 0, n = channel->components; // the last key at or before the time, else the first
+    int key = 0; // the last key at or before the time, else the first
     for (int end = channel->key_count; end - key > 1;) {
         const int middle = key + (end - key) / 2;
         if ((double)channel->times[middle] <= time) {
@@ -186,21 +200,14 @@ void gltf_channel_at(const struct gltf_channel *channel, double time, float *out
             end = middle;
         }
     }
-    bool is_cubic = channel->interpolation == GLTF_CUBIC;
-    size_t stride = (size_t)(is_cubic ? 3 * n : n);
-    const float *at = channel->values + (size_t)key * stride;
-    double from = (double)channel->times[key];
-    bool held = key + 1 == channel->key_count || time <= from || channel->interpolation == GLTF_STEP;
-    double T = held ? 1 : (double)channel->times[key + 1] - from;
-    float s = (float)((time - from) / T);
-    if (held) {
-        memcpy(out, is_cubic ? at + n : at, (size_t)n * sizeof *out);
-    } else if (is_cubic) {
-        cubic(at, at + stride, n, s, (float)T, out);
-    } else if (channel->path == GLTF_ROTATION) {
-        slerp(at, at + n, s, out);
+    const int n = channel->components, stride = gltf_stride(channel);
+    const float *at = channel->values + (size_t)key * (size_t)stride;
+    const double from = (double)channel->times[key];
+    if (key + 1 == channel->key_count || time <= from || channel->interpolation == GLTF_STEP) {
+        memcpy(out, stride > n ? at + n : at, (size_t)n * sizeof *out);
     } else {
-        for (int k = 0; k < n; k++) out[k] = (1 - s) * at[k] + s * at[n + k];
+        const double T = (double)channel->times[key + 1] - from;
+        between(channel, at, at + stride, (float)((time - from) / T), T, out);
     }
     if (channel->path == GLTF_ROTATION) normalise(out);
 }
@@ -231,21 +238,16 @@ void gltf_pose_loop(const struct gltf *gltf, int clip, double time, struct gltf_
     gltf_pose_clip(gltf, clip, time, pose);
     for (int i = 0; into > 0 && i < of->channel_count; i++) {
         const struct gltf_channel *channel = &of->channels[i];
-        const bool is_cubic = channel->interpolation == GLTF_CUBIC;
-        const int n = channel->components, stride = is_cubic ? 3 * n : n;
+        const int n = channel->components, stride = gltf_stride(channel), value = stride > n ? n : 0;
         const float *first = channel->values, *last = first + (size_t)(channel->key_count - 1) * (size_t)stride;
-        const float *from = last + (is_cubic ? n : 0), *to = first + (is_cubic ? n : 0), s = (float)(into / of->gap);
         float *out = value_in(gltf, channel, pose);
         if (channel->travels) {
-            for (int k = 0; k < n; k++) out[k] = from[k] + (float)share * (from[k] - to[k]);
+            for (int k = 0; k < n; k++)
+                out[k] = last[value + k] + (float)share * (last[value + k] - first[value + k]);
         } else if (channel->interpolation == GLTF_STEP) {
-            if (into == of->gap) memcpy(out, to, (size_t)n * sizeof *out);
-        } else if (is_cubic) {
-            cubic(last, first, n, s, (float)of->gap, out);
-        } else if (channel->path == GLTF_ROTATION) {
-            slerp(from, to, s, out);
+            if (into == of->gap) memcpy(out, first, (size_t)n * sizeof *out);
         } else {
-            for (int k = 0; k < n; k++) out[k] = (1 - s) * from[k] + s * to[k];
+            between(channel, last, first, (float)(into / of->gap), of->gap, out);
         }
         if (channel->path == GLTF_ROTATION) normalise(out);
     }
@@ -397,7 +399,7 @@ static float dot(const float *a, const float *b, int count)
 
 static struct ends ends_of(const struct gltf_channel *channel)
 {
-    const int n = channel->components, stride = n * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+    const int n = channel->components, stride = gltf_stride(channel);
     const bool is_rotation = channel->path == GLTF_ROTATION;
     struct ends ends = {.first = channel->values + (stride > n ? n : 0), .sign = 1};
     ends.last = ends.first + (size_t)(channel->key_count - 1) * (size_t)stride;
@@ -502,9 +504,9 @@ bool gltf_judge_loop(const struct gltf *gltf, struct gltf_clip *clip)
     const double length = clip->last - clip->first;
     int most_keys = 0, most_components = 4;
     bool closed = true, moves = false, travels = false, done = false;
-    struct ends *ends = calloc((size_t)clip->channel_count + 1, sizeof *ends);
-    bool *is_open = calloc((size_t)gltf->node_count + 1, sizeof *is_open);
-    float *values = NULL;
+    struct pool work = {0};
+    struct ends *ends = pool_try(&work, (size_t)clip->channel_count, sizeof *ends);
+    bool *is_open = pool_try(&work, (size_t)gltf->node_count, sizeof *is_open);
     if (!ends || !is_open) goto end;
     for (int c = 0; c < clip->channel_count; c++) {
         const struct gltf_channel *channel = &clip->channels[c];
@@ -524,13 +526,11 @@ bool gltf_judge_loop(const struct gltf *gltf, struct gltf_clip *clip)
     }
     clip->loops = closed && (moves || !travels);
     clip->gap = clip->loops || most_keys < 2 ? 0 : length / (most_keys - 1);
-    values = malloc(4 * (size_t)most_components * sizeof *values);
-    if (!values) goto end;
-    if (!clip->loops && moves && clip->gap > 0 && most_keys > LEAST_STEPS) clip->loops = goes_on(clip, ends, values);
-    done = true;
+    float *values = pool_try(&work, 4 * (size_t)most_components, sizeof *values);
+    done = values;
+    if (done && !clip->loops && moves && clip->gap > 0 && most_keys > LEAST_STEPS)
+        clip->loops = goes_on(clip, ends, values);
 end:
-    free(values);
-    free(is_open);
-    free(ends);
+    pool_free(&work);
     return done;
 }
