@@ -101,8 +101,6 @@ static void add_channel(struct gltf_motion *motion, json_int_t node, enum gltf_p
 struct scene {
     struct export_range *range;
     struct gltf_file file;
-    struct gltf_looks looks;
-    json_t *roots, *nodes, *meshes, *skins;
     struct gltf_motion motion;
     int joints, targets;
 };
@@ -140,6 +138,8 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     make_targets(&form, &weights, 1, &targets);
 
     struct gltf_file *file = &scene->file;
+    json_t *nodes = json_object_get(file->root, "nodes");
+    json_t *roots = json_object_get(json_array_get(json_object_get(file->root, "scenes"), 0), "nodes");
     struct gltf_shape shape = form.shape;
     shape.name = form.name;
     shape.target_count = targets.count;
@@ -151,13 +151,13 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
         shape.targets[t].scale *= target->scale;
         shape.targets[t].turn *= target->scale;
     }
-    const json_int_t mesh = gltf_append(file, scene->meshes, gltf_shape_json(&scene->looks, &shape));
+    const json_int_t mesh = gltf_append_to(file, file->root, "meshes", gltf_shape_json(file, &shape));
     json_t *node = json_pack("{s:s, s:I}", "name", form.name, "mesh", mesh);
-    const json_int_t mesh_node = gltf_append(file, scene->nodes, node);
-    gltf_append(file, scene->roots, json_integer(mesh_node));
+    const json_int_t mesh_node = gltf_append(file, nodes, node);
+    gltf_append(file, roots, json_integer(mesh_node));
 
     // The joints as nodes, posed at the first key, and their skin.
-    const json_int_t first_joint = (json_int_t)json_array_size(scene->nodes);
+    const json_int_t first_joint = (json_int_t)json_array_size(nodes);
     if (form.joint_count > 0) {
         json_t *joints = json_array();
         float(*inverse)[16] = pool_take(&form.pool, (size_t)form.joint_count, sizeof *inverse);
@@ -167,17 +167,17 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
             json_t *own =
                 json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", gltf_numbers(file, place, 3),
                           "rotation", gltf_numbers(file, keys.rows + keys_rotation(j), 4));
-            gltf_append(file, joints, json_integer(gltf_append(file, scene->nodes, own)));
+            gltf_append(file, joints, json_integer(gltf_append(file, nodes, own)));
             for (int k = 0; k < 4; k++) inverse[j][5 * k] = 1;
             for (int k = 0; k < 3; k++) inverse[j][12 + k] = -joint->bind[k];
             if (joint->parent < 0) continue;
-            json_t *parent = json_array_get(scene->nodes, (size_t)(first_joint + joint->parent));
+            json_t *parent = json_array_get(nodes, (size_t)(first_joint + joint->parent));
             gltf_append_to(file, parent, "children", json_integer(first_joint + j));
         }
-        gltf_append(file, scene->roots, json_integer(first_joint));
+        gltf_append(file, roots, json_integer(first_joint));
         const json_int_t matrices = gltf_file_add(file, ELEMENTS_MATRICES, inverse, (size_t)form.joint_count, false);
-        const json_int_t skin = gltf_append(
-            file, scene->skins,
+        const json_int_t skin = gltf_append_to(
+            file, file->root, "skins",
             json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices, "skeleton", first_joint));
         gltf_set(file, node, "skin", json_integer(skin));
     } else {
@@ -206,41 +206,32 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
 bool gltf_write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
                       struct error *error)
 {
-    struct scene scene = {.range = range, .motion = {.file = &scene.file, .key_count = range->key_count}};
-    json_t **const arrays[] = {&scene.roots, &scene.nodes,           &scene.meshes,
-                               &scene.skins, &scene.motion.samplers, &scene.motion.channels};
-    enum { ARRAYS = sizeof arrays / sizeof *arrays };
-    scene.looks.file = &scene.file;
-    for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
+    const char *wanted = range->options->clip ? range->options->clip : range->title;
+    char *name = name_from(wanted, strlen(wanted)); // it may be an argument
+    struct scene scene = {.range = range};
+    struct gltf_file *file = &scene.file;
+    file->root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[]}], s:[], s:[{s:s, s:[], s:[]}]}", "asset", "version", "2.0",
+                           "generator", "wiggly", "scene", 0, "scenes", "nodes", "nodes", "animations", "name", name,
+                           "samplers", "channels");
+    free(name);
+    const json_t *clip = json_array_get(json_object_get(file->root, "animations"), 0);
+    scene.motion = (struct gltf_motion){.file = file,
+                                        .samplers = json_object_get(clip, "samplers"),
+                                        .channels = json_object_get(clip, "channels"),
+                                        .key_count = range->key_count};
     bool done = true;
     float *times = need((size_t)range->key_count, sizeof *times);
     for (int k = 0; k < range->key_count; k++) times[k] = (float)range_seconds(range, k);
-    scene.motion.times = gltf_file_add(&scene.file, ELEMENTS_KEYS, times, (size_t)range->key_count, true);
+    scene.motion.times = gltf_file_add(file, ELEMENTS_KEYS, times, (size_t)range->key_count, true);
     free(times);
     for (int r = 0; done && r < count; r++) done = add_rig(&scene, rigs[r], error);
-    if (done) {
-        json_t *root =
-            json_pack("{s:{s:s, s:s}, s:i, s:[{s:O}], s:O, s:O}", "asset", "version", "2.0", "generator", "wiggly",
-                      "scene", 0, "scenes", "nodes", scene.roots, "nodes", scene.nodes, "meshes", scene.meshes);
-        gltf_looks_complete(&scene.looks, root);
-        if (json_array_size(scene.skins) > 0) gltf_set(&scene.file, root, "skins", json_incref(scene.skins));
-        if (json_array_size(scene.motion.channels) > 0) {
-            const char *name = range->options->clip ? range->options->clip : range->title;
-            char *valid = name_from(name, strlen(name)); // it may be an argument
-            gltf_set(&scene.file, root, "animations",
-                     json_pack("[{s:s, s:O, s:O}]", "name", valid, "samplers", scene.motion.samplers, "channels",
-                               scene.motion.channels));
-            free(valid);
-        }
-        done = gltf_file_write(&scene.file, root, binary, out, error);
-    }
+    if (json_array_size(scene.motion.channels) == 0) json_object_del(file->root, "animations");
+    done = done && gltf_file_write(file, binary, out, error);
     char joints[32] = "", targets[32] = "";
     if (scene.joints > 0) snprintf(joints, sizeof joints, "%d joints, ", scene.joints);
     if (scene.targets > 0) snprintf(targets, sizeof targets, "%d morph targets, ", scene.targets);
     snprintf(range->summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, range->key_count);
-    for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
-    gltf_looks_free(&scene.looks);
-    gltf_file_free(&scene.file);
+    gltf_file_free(file);
     return done;
 }
 
@@ -729,7 +720,7 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
         if (done && (!is_same || (binary && !has_chunk))) {
             done = gltf_file_gather(&to, &source, error);
         } else if (done) {
-            gltf_file_continue(&to, source.json);
+            to.root = json_incref(source.json);
             if (has_chunk) gltf_file_append(&to, source.chunk.at, source.chunk.size);
             if (!has_chunk) to.buffer = (json_int_t)json_array_size(buffers);
             done = check_place(range, &source, error);
@@ -769,7 +760,7 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
             json_decref(placed);
             json_decref(roots);
         }
-        done = done && gltf_file_write(&to, json_incref(source.json), binary, out, error);
+        done = done && gltf_file_write(&to, binary, out, error);
     }
     gltf_file_free(&to);
     glb_close(&source);

@@ -369,13 +369,15 @@ static bool unpack_primitive(struct unpacking *u, const json_t *primitive, const
     struct glb_bytes bytes = {0};
     const char *name;
     int count = 1;
-    accessors[0] = json_array_get(u->plain.accessors, (size_t)glb_integer(primitive, "indices", -1));
+    accessors[0] =
+        json_array_get(json_object_get(u->glb->json, "accessors"), (size_t)glb_integer(primitive, "indices", -1));
     bool done = json_is_object(accessors[0]) && glb_view(u->glb, view, &bytes) && view < (int64_t)u->view_count &&
                 json_object_size(ids) < PARTS;
     json_object_foreach(ids, name, id)
     {
         if (!done) break;
-        accessors[count] = json_array_get(u->plain.accessors, (size_t)glb_integer(attributes, name, -1));
+        accessors[count] =
+            json_array_get(json_object_get(u->glb->json, "accessors"), (size_t)glb_integer(attributes, name, -1));
         struct draco_part *part = &parts[count++];
         part->type = (int)glb_integer(accessors[count - 1], "componentType", -1);
         part->components = components_of(accessors[count - 1]);
@@ -393,8 +395,8 @@ static bool unpack_primitive(struct unpacking *u, const json_t *primitive, const
             struct gltf_file *plain = &u->plain;
             const json_int_t own = gltf_file_add_bytes(plain, part->values, part->count * part->stride);
             if (part->attribute >= 0)
-                gltf_set(plain, json_array_get(plain->views, (size_t)own), "byteStride",
-                         json_integer((json_int_t)part->stride));
+                gltf_set(plain, json_array_get(json_object_get(plain->root, "bufferViews"), (size_t)own),
+                         "byteStride", json_integer((json_int_t)part->stride));
             gltf_set(plain, accessors[i], "bufferView", json_integer(own));
             gltf_set(plain, accessors[i], "count", json_integer((json_int_t)part->count));
             gltf_set(plain, accessors[i], "componentType", json_integer(part->type));
@@ -458,8 +460,9 @@ static bool unpack(struct glb *glb, struct error *error)
     size_t m, p;
     json_t *mesh, *primitive;
     if (!glb_is_packed(glb)) return true;
-    gltf_file_continue(&u.plain, glb->json);
-    u.view_count = json_array_size(u.plain.views);
+    json_t *views = json_object_get(glb->json, "bufferViews");
+    u.plain.root = json_incref(glb->json);
+    u.view_count = json_array_size(views);
     u.is_spent = calloc(u.view_count + 1, sizeof *u.is_spent);
     bool done = u.is_spent;
     json_array_foreach(json_object_get(glb->json, "meshes"), m, mesh)
@@ -477,7 +480,7 @@ static bool unpack(struct glb *glb, struct error *error)
         }
     }
     for (size_t i = 0; done && i < u.view_count; i++) {
-        json_t *view = json_array_get(u.plain.views, i);
+        json_t *view = json_array_get(views, i);
         const json_t *packed = extension_of(view, meshopt);
         const int64_t count = glb_integer(packed, "count", -1), stride = glb_integer(packed, "byteStride", -1);
         struct glb_bytes from;
@@ -493,7 +496,7 @@ static bool unpack(struct glb *glb, struct error *error)
             gltf_set(&u.plain, view, "byteLength", json_integer((json_int_t)size));
             drop_extension(view, meshopt);
         } else if (u.is_spent[i]) { // keep its number: repeat another view in its place
-            json_array_set_new(u.plain.views, i, json_deep_copy(json_array_get(u.plain.views, u.view_count)));
+            json_array_set_new(views, i, json_deep_copy(json_array_get(views, u.view_count)));
         } else {
             done = fail(error, ERROR_INPUT,
                         "%s: bufferViews[%zu]: expected data within the file, plain or compressed by meshoptimizer, "

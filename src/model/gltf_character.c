@@ -275,7 +275,6 @@ bool character_write(const char *path, const struct character *character, bool t
     struct figure figure = {.character = *character};
     struct pool pool = {0};
     struct gltf_file file = {0};
-    struct gltf_looks looks = {.file = &file};
     if (turn_normals) figure_derive(&figure);
 
     // The vertices of the file: one for each pair of a vertex and its texture coordinates. The character's come first, in order; then copies
@@ -330,12 +329,10 @@ bool character_write(const char *path, const struct character *character, bool t
             shape.targets[shape.target_count++] = figure_target_create(&figure, k, p, &pool);
     }
 
-    json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o]}", "asset", "version", "2.0",
-                             "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name", "character",
-                             "mesh", 0, "meshes", gltf_shape_json(&looks, &shape));
-    gltf_looks_complete(&looks, root);
-    const bool done = gltf_file_save(&file, root, path, error);
-    gltf_looks_free(&looks);
+    file.root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}]}", "asset", "version", "2.0", "generator",
+                          "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name", "character", "mesh", 0);
+    gltf_append_to(&file, file.root, "meshes", gltf_shape_json(&file, &shape));
+    const bool done = gltf_file_save(&file, path, error);
     gltf_file_free(&file);
     pool_free(&pool);
     pool_free(&figure.pool);

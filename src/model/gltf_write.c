@@ -31,12 +31,6 @@ static const struct element {
     [ELEMENTS_TURNS] = {"VEC4", 4, NUMBER_FLOAT32, 0},
 };
 
-void gltf_file_continue(struct gltf_file *file, json_t *root)
-{
-    file->views = json_incref(json_object_get(root, "bufferViews"));
-    file->accessors = json_incref(json_object_get(root, "accessors"));
-}
-
 size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size)
 {
     const size_t start = file->size, padded = (size + 3) / 4 * 4;
@@ -68,10 +62,10 @@ void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *v
     if (json_object_set_new(object, key, value) != 0) file->without_memory = true;
 }
 
-void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value)
+json_int_t gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value)
 {
     if (!json_object_get(object, key)) gltf_set(file, object, key, json_array());
-    gltf_append(file, json_object_get(object, key), value);
+    return gltf_append(file, json_object_get(object, key), value);
 }
 
 json_t *gltf_numbers(struct gltf_file *file, const float *numbers, int count)
@@ -98,12 +92,11 @@ void gltf_file_bound(struct gltf_file *file, json_t *accessor, const float *numb
 /// Pads the bytes to a multiple of four.
 static json_int_t add_view(struct gltf_file *file, const void *data, size_t size, int target)
 {
-    if (!file->views) file->views = json_array();
     json_t *view = json_pack("{s:I, s:I, s:I}", "buffer", file->buffer, "byteOffset", (json_int_t)file->size,
                              "byteLength", (json_int_t)size);
     if (target) gltf_set(file, view, "target", json_integer(target));
     gltf_file_append(file, data, size);
-    return gltf_append(file, file->views, view);
+    return gltf_append_to(file, file->root, "bufferViews", view);
 }
 
 json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size)
@@ -115,13 +108,12 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
                          bool bounds)
 {
     const struct element *kind = &kinds[elements];
-    if (!file->accessors) file->accessors = json_array();
     const json_int_t view =
         add_view(file, data, count * (size_t)(kind->components * number_size(kind->type)), kind->target);
     json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", view, "componentType", kind->type, "count",
                                  (json_int_t)count, "type", kind->shape);
     if (bounds) gltf_file_bound(file, accessor, data, count, kind->components);
-    return gltf_append(file, file->accessors, accessor);
+    return gltf_append_to(file, file->root, "accessors", accessor);
 }
 
 static void write_words(FILE *out, uint32_t a, uint32_t b)
@@ -130,8 +122,9 @@ static void write_words(FILE *out, uint32_t a, uint32_t b)
     fwrite(words, sizeof words, 1, out);
 }
 
-bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error)
+bool gltf_file_write(struct gltf_file *file, bool binary, FILE *out, struct error *error)
 {
+    json_t *root = file->root;
     char *text = NULL;
     const bool fits = file->size < UINT32_MAX / 2;
     if (root && fits && file->size > 0) { // describe the buffer of the bytes
@@ -147,13 +140,8 @@ bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *ou
             free(address);
         }
     }
-    if (root && fits && json_array_size(file->views) > 0)
-        gltf_set(file, root, "bufferViews", json_incref(file->views));
-    if (root && fits && json_array_size(file->accessors) > 0)
-        gltf_set(file, root, "accessors", json_incref(file->accessors));
     if (root && fits && !file->without_memory)
         text = json_dumps(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
-    json_decref(root);
     if (!text) {
         return fail(error, ERROR_ENVIRONMENT,
                     fits ? "not enough memory, or a name is not UTF-8"
@@ -179,24 +167,21 @@ bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *ou
     return true;
 }
 
-bool gltf_file_save(struct gltf_file *file, json_t *root, const char *path, struct error *error)
+bool gltf_file_save(struct gltf_file *file, const char *path, struct error *error)
 {
     struct file_output out;
     struct error why;
-    if (!file_output_open(&out, path, error)) {
-        json_decref(root);
-        return false;
-    }
-    if (gltf_file_write(file, root, true, out.stream, &why)) return file_output_commit(&out, error);
+    if (!file_output_open(&out, path, error)) return false;
+    if (gltf_file_write(file, true, out.stream, &why)) return file_output_commit(&out, error);
     file_output_discard(&out);
     return fail(error, why.kind, "%s: %s", path, why.text);
 }
 
 void gltf_file_free(struct gltf_file *file)
 {
-    json_decref(file->views);
-    json_decref(file->accessors);
+    json_decref(file->root);
     free(file->data);
+    free(file->pictures);
     *file = (struct gltf_file){0};
 }
 
@@ -220,7 +205,7 @@ bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *
     } known[] = {{"\x89PNG", "image/png", 4}, {"\xFF\xD8", "image/jpeg", 2}, {"\xABKTX 20", "image/ktx2", 7}};
     json_t *view, *extension, *image;
     size_t i;
-    gltf_file_continue(file, source->json);
+    file->root = json_incref(source->json);
     const size_t count = json_array_size(json_object_get(source->json, "buffers"));
     size_t *starts = calloc(count + 1, sizeof *starts);
     bool done = starts;
@@ -228,7 +213,7 @@ bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *
         const struct glb_bytes bytes = source->buffers[b].bytes;
         starts[b] = gltf_file_append(file, bytes.at, bytes.size);
     }
-    json_array_foreach(file->views, i, view)
+    json_array_foreach(json_object_get(file->root, "bufferViews"), i, view)
     {
         const char *name;
         done = done && move_view(view, starts, count);
@@ -274,49 +259,66 @@ struct gltf_picture {
 
 // --- materials
 
-static json_int_t add_material(struct gltf_looks *l, const struct looks_material *material)
+static json_int_t add_material(struct gltf_file *file, const struct looks_material *material, bool is_open)
 {
     const float *c = material->color;
     const char *kind = material->image ? looks_image_kind(material->image, material->image_size) : NULL;
     json_t *base = json_pack("{s:f, s:f}", "metallicFactor", 0.0, "roughnessFactor", 0.8);
     if (c[0] != 1 || c[1] != 1 || c[2] != 1 || c[3] != 1)
-        gltf_set(l->file, base, "baseColorFactor",
+        gltf_set(file, base, "baseColorFactor",
                  json_pack("[f, f, f, f]", (double)c[0], (double)c[1], (double)c[2], (double)c[3]));
     if (kind) {
-        size_t t = 0, count = json_array_size(l->textures); // the texture of a picture is made if it is new
-        while (t < count && (l->pictures[t].size != material->image_size ||
-                             memcmp(l->pictures[t].bytes, material->image, material->image_size) != 0))
+        size_t t = 0, count = json_array_size(
+                          json_object_get(file->root, "textures")); // the texture of a picture is made if it is new
+        while (t < count && (file->pictures[t].size != material->image_size ||
+                             memcmp(file->pictures[t].bytes, material->image, material->image_size) != 0))
             t++;
         if (t == count) {
-            l->pictures = need_more(l->pictures, count + 1, sizeof *l->pictures);
-            l->pictures[count] = (struct gltf_picture){material->image, material->image_size};
-            const json_int_t view = gltf_file_add_bytes(l->file, material->image, material->image_size);
-            const json_int_t image = gltf_append(l->file, l->images,
-                                                 json_pack("{s:s, s:I, s:o}", "name", material->name, "bufferView",
-                                                           view, "mimeType", json_sprintf("image/%s", kind)));
-            t = (size_t)gltf_append(l->file, l->textures, json_pack("{s:I}", "source", image));
+            file->pictures = need_more(file->pictures, count + 1, sizeof *file->pictures);
+            file->pictures[count] = (struct gltf_picture){material->image, material->image_size};
+            const json_int_t view = gltf_file_add_bytes(file, material->image, material->image_size);
+            const json_int_t image = gltf_append_to(file, file->root, "images",
+                                                    json_pack("{s:s, s:I, s:o}", "name", material->name, "bufferView",
+                                                              view, "mimeType", json_sprintf("image/%s", kind)));
+            t = (size_t)gltf_append_to(file, file->root, "textures", json_pack("{s:I}", "source", image));
         }
-        gltf_set(l->file, base, "baseColorTexture", json_pack("{s:I}", "index", (json_int_t)t));
+        gltf_set(file, base, "baseColorTexture", json_pack("{s:I}", "index", (json_int_t)t));
     }
     json_t *json = json_pack("{s:s, s:o}", "name", material->name, "pbrMetallicRoughness", base);
-    if (c[3] < 1) gltf_set(l->file, json, "alphaMode", json_string("BLEND"));
-    if (l->is_open) gltf_set(l->file, json, "doubleSided", json_true());
-    return gltf_append(l->file, l->materials, json);
+    if (c[3] < 1) gltf_set(file, json, "alphaMode", json_string("BLEND"));
+    if (is_open) gltf_set(file, json, "doubleSided", json_true());
+    return gltf_append_to(file, file->root, "materials", json);
 }
 
 // --- triangles
 
+/// Whether the back of a shape can be seen, as a flag's: a triangle has none across an edge.
+static bool can_see_inside(const struct gltf_shape *shape)
+{
+    const size_t count = (size_t)shape->index_count;
+    uint32_t *corners = need(count + 1, sizeof *corners), most = 0;
+    int *across = need(count + 1, sizeof *across);
+    bool open = false;
+    for (size_t i = 0; i < count; i++) {
+        corners[i] = shape->source ? shape->source[shape->indices[i]] : shape->indices[i];
+        most = corners[i] > most ? corners[i] : most;
+    }
+    neighbours_find(shape->position, (int)most + 1, corners, shape->index_count, across);
+    for (size_t i = 0; i < count; i++) open = open || across[i] == NEIGHBOUR_NONE;
+    free(corners);
+    free(across);
+    return open;
+}
+
 /// A primitive per material of the triangles, and one for triangles without.
-static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *shape, json_t *attributes,
+static json_t *make_primitives(struct gltf_file *file, const struct gltf_shape *shape, json_t *attributes,
                                json_t *targets)
 {
     const struct looks *looks = shape->looks;
     const uint32_t materials = looks ? (uint32_t)looks->material_count : 0;
     uint32_t *corners = need((size_t)shape->index_count, sizeof *corners);
+    const bool is_open = can_see_inside(shape);
     json_t *primitives = json_array();
-    if (!l->materials) l->materials = json_array();
-    if (!l->textures) l->textures = json_array();
-    if (!l->images) l->images = json_array();
     for (uint32_t m = 0; m <= materials; m++) {
         // Its corners. Successive polygons begin at different ones, so that readers can tell them apart.
         const bool polygons = looks && looks->joined;
@@ -340,26 +342,25 @@ static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *sh
             }
         }
         if (count == 0) continue;
-        const bool none = m == materials;
-        const json_int_t indices = gltf_file_add(l->file, ELEMENTS_INDICES, corners, count, false);
+        const json_int_t indices = gltf_file_add(file, ELEMENTS_INDICES, corners, count, false);
         json_int_t material;
-        if (!none) {
-            material = add_material(l, &looks->materials[m]);
+        if (m < materials) {
+            material = add_material(file, &looks->materials[m], is_open);
         } else {
             char name[] = "skin";
             const struct looks_material skin = {.name = name, .color = {1, 1, 1, 1}};
-            if (!l->has_plain[l->is_open]) l->plain[l->is_open] = add_material(l, &skin);
-            l->has_plain[l->is_open] = true;
-            material = l->plain[l->is_open];
+            json_int_t *plain = &file->plain[is_open];
+            if (*plain == 0) *plain = add_material(file, &skin, is_open) + 1;
+            material = *plain - 1;
         }
         json_t *primitive =
             json_pack("{s:O, s:I, s:I}", "attributes", attributes, "indices", indices, "material", material);
-        if (json_array_size(targets) > 0) gltf_set(l->file, primitive, "targets", json_incref(targets));
+        if (json_array_size(targets) > 0) gltf_set(file, primitive, "targets", json_incref(targets));
         if (looks && looks->joined) {
-            gltf_set(l->file, primitive, "extensions", json_pack("{s:{}}", GLTF_POLYGONS));
-            l->has_polygons = true;
+            gltf_set(file, primitive, "extensions", json_pack("{s:{}}", GLTF_POLYGONS));
+            gltf_set(file, file->root, "extensionsUsed", json_pack("[s]", GLTF_POLYGONS));
         }
-        gltf_append(l->file, primitives, primitive);
+        gltf_append(file, primitives, primitive);
     }
     free(corners);
     return primitives;
@@ -468,7 +469,8 @@ static json_t *make_target(const struct gltf_retargeting *r, const struct gltf_r
         accessor = json_pack("{s:i, s:I, s:s}", "componentType", NUMBER_FLOAT32, "count", (json_int_t)vertices,
                              "type", "VEC3");
         gltf_file_bound(r->file, accessor, zero, 1, 3);
-        gltf_set(r->file, own, "POSITION", json_integer(gltf_append(r->file, r->file->accessors, accessor)));
+        gltf_set(r->file, own, "POSITION",
+                 json_integer(gltf_append_to(r->file, r->file->root, "accessors", accessor)));
     }
     json_object_foreach(is_new || wanted->scale == 1 ? NULL : kept, name, accessor)
     {
@@ -506,7 +508,8 @@ void gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mes
         const bool shows = shown < mesh->part_count && mesh->parts[shown].primitive == (int)p;
         const struct gltf_part *part = shows ? &mesh->parts[shown++] : NULL;
         const int64_t position = glb_integer(json_object_get(primitive, "attributes"), "POSITION", -1);
-        const size_t vertices = (size_t)glb_integer(json_array_get(file->accessors, (size_t)position), "count", 1);
+        const size_t vertices = (size_t)glb_integer(
+            json_array_get(json_object_get(file->root, "accessors"), (size_t)position), "count", 1);
         const json_t *had = json_object_get(primitive, "targets");
         json_t *list =
             part && part->shared ? json_deep_copy(first) : json_array(); // readers see that they are the same
@@ -571,7 +574,7 @@ bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, cons
         if (!json_is_object(known)) gltf_set(&file, extras, "wiggly", known = json_object());
         for (int k = 0; k < count; k++)
             gltf_append_to(&file, known, "coordinates", gltf_coordinate_json(&file, &coordinates[k], 1));
-        done = gltf_file_save(&file, json_incref(source.json), path, error);
+        done = gltf_file_save(&file, path, error);
     }
     free(r.clips);
     pool_free(&pool);
@@ -583,7 +586,7 @@ bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, cons
 // --- vertices
 
 /// A copy of vectors for the file's vertices, times `scale`, within [lowest, highest].
-static json_int_t add_vectors(struct gltf_looks *l, const struct gltf_shape *shape, const float (*vectors)[3],
+static json_int_t add_vectors(struct gltf_file *file, const struct gltf_shape *shape, const float (*vectors)[3],
                               float scale, const float range[2], bool bounds)
 {
     const size_t count = (size_t)shape->vertex_count;
@@ -592,101 +595,57 @@ static json_int_t add_vectors(struct gltf_looks *l, const struct gltf_shape *sha
         const float *vector = vectors[shape->source ? shape->source[i] : i];
         for (int k = 0; k < 3; k++) copy[i][k] = fminf(fmaxf(scale * vector[k], range[0]), range[1]);
     }
-    const json_int_t accessor = gltf_file_add(l->file, ELEMENTS_VECTORS, copy, count, bounds);
+    const json_int_t accessor = gltf_file_add(file, ELEMENTS_VECTORS, copy, count, bounds);
     free(copy);
     return accessor;
 }
 
-static void add_attribute(struct gltf_looks *l, json_t *attributes, const char *name, enum gltf_elements elements,
+static void add_attribute(struct gltf_file *file, json_t *attributes, const char *name, enum gltf_elements elements,
                           const void *data, int count)
 {
     if (!data) return;
-    gltf_set(l->file, attributes, name, json_integer(gltf_file_add(l->file, elements, data, (size_t)count, false)));
+    gltf_set(file, attributes, name, json_integer(gltf_file_add(file, elements, data, (size_t)count, false)));
 }
 
-/// Whether the back of a shape can be seen, as a flag's: a triangle has none across an edge.
-static bool is_open(const struct gltf_shape *shape)
-{
-    const size_t count = (size_t)shape->index_count;
-    uint32_t *corners = need(count + 1, sizeof *corners), most = 0;
-    int *across = need(count + 1, sizeof *across);
-    bool open = false;
-    for (size_t i = 0; i < count; i++) {
-        corners[i] = shape->source ? shape->source[shape->indices[i]] : shape->indices[i];
-        most = corners[i] > most ? corners[i] : most;
-    }
-    neighbours_find(shape->position, (int)most + 1, corners, shape->index_count, across);
-    for (size_t i = 0; i < count; i++) open = open || across[i] == NEIGHBOUR_NONE;
-    free(corners);
-    free(across);
-    return open;
-}
-
-json_t *gltf_shape_json(struct gltf_looks *l, const struct gltf_shape *shape)
+json_t *gltf_shape_json(struct gltf_file *file, const struct gltf_shape *shape)
 {
     static const float any[2] = {-INFINITY, INFINITY}, unit[2] = {-1, 1}, share[2] = {0, 1};
-    l->is_open = is_open(shape);
-    const json_int_t position = add_vectors(l, shape, shape->position, 1, any, true);
-    const json_int_t normal = add_vectors(l, shape, shape->normal, 1, unit, false);
+    const json_int_t position = add_vectors(file, shape, shape->position, 1, any, true);
+    const json_int_t normal = add_vectors(file, shape, shape->normal, 1, unit, false);
     json_t *attributes = json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal), *targets = json_array();
     bool has_colors = false;
     for (int n = 0; n < 3 * shape->vertex_count && !has_colors; n++)
         has_colors = shape->color[shape->source ? shape->source[n / 3] : (size_t)(n / 3)][n % 3] != 1;
     if (has_colors)
-        gltf_set(l->file, attributes, "COLOR_0", json_integer(add_vectors(l, shape, shape->color, 1, share, false)));
-    add_attribute(l, attributes, "TEXCOORD_0", ELEMENTS_UVS, shape->uv, shape->vertex_count);
-    add_attribute(l, attributes, "JOINTS_0", ELEMENTS_JOINTS, shape->joints, shape->vertex_count);
-    add_attribute(l, attributes, "WEIGHTS_0", ELEMENTS_WEIGHTS, shape->weights, shape->vertex_count);
+        gltf_set(file, attributes, "COLOR_0", json_integer(add_vectors(file, shape, shape->color, 1, share, false)));
+    add_attribute(file, attributes, "TEXCOORD_0", ELEMENTS_UVS, shape->uv, shape->vertex_count);
+    add_attribute(file, attributes, "JOINTS_0", ELEMENTS_JOINTS, shape->joints, shape->vertex_count);
+    add_attribute(file, attributes, "WEIGHTS_0", ELEMENTS_WEIGHTS, shape->weights, shape->vertex_count);
     for (int t = 0; t < shape->target_count; t++) {
         const struct figure_target *target = &shape->targets[t];
         json_t *json =
-            json_pack("{s:I}", "POSITION", add_vectors(l, shape, target->position, target->scale, any, true));
+            json_pack("{s:I}", "POSITION", add_vectors(file, shape, target->position, target->scale, any, true));
         if (target->normal)
-            gltf_set(l->file, json, "NORMAL",
-                     json_integer(add_vectors(l, shape, target->normal, target->turn, any, false)));
-        gltf_append(l->file, targets, json);
+            gltf_set(file, json, "NORMAL",
+                     json_integer(add_vectors(file, shape, target->normal, target->turn, any, false)));
+        gltf_append(file, targets, json);
     }
     json_t *mesh =
-        json_pack("{s:s, s:o}", "name", shape->name, "primitives", make_primitives(l, shape, attributes, targets));
-    for (int t = 0; t < shape->target_count; t++) gltf_append_to(l->file, mesh, "weights", json_integer(0));
+        json_pack("{s:s, s:o}", "name", shape->name, "primitives", make_primitives(file, shape, attributes, targets));
+    for (int t = 0; t < shape->target_count; t++) gltf_append_to(file, mesh, "weights", json_integer(0));
     if (shape->target_count >
         0) { // the extras that character_read() reads: names of targets and properties of coordinates
         json_t *names = json_array(), *coordinates = json_array();
-        for (int t = 0; t < shape->target_count; t++)
-            gltf_append(l->file, names, json_string(shape->targets[t].name));
+        for (int t = 0; t < shape->target_count; t++) gltf_append(file, names, json_string(shape->targets[t].name));
         for (int i = 0, first = 0; shape->character && i < shape->character->coordinate_count; i++) {
             const struct coordinate *c = &shape->character->coordinates[i];
-            gltf_append(l->file, coordinates, gltf_coordinate_json(l->file, c, (double)shape->targets[first].scale));
+            gltf_append(file, coordinates, gltf_coordinate_json(file, c, (double)shape->targets[first].scale));
             first += coordinate_parts(c);
         }
-        gltf_set(l->file, mesh, "extras",
+        gltf_set(file, mesh, "extras",
                  json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates));
     }
     json_decref(attributes);
     json_decref(targets);
     return mesh;
-}
-
-// --- the rest of the file
-
-void gltf_looks_complete(struct gltf_looks *l, json_t *root)
-{
-    const struct {
-        const char *key;
-        json_t *array;
-    } members[] = {{"materials", l->materials}, {"textures", l->textures}, {"images", l->images}};
-    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
-        if (json_array_size(members[i].array) > 0)
-            gltf_set(l->file, root, members[i].key, json_incref(members[i].array));
-    }
-    if (l->has_polygons) gltf_set(l->file, root, "extensionsUsed", json_pack("[s]", GLTF_POLYGONS));
-}
-
-void gltf_looks_free(struct gltf_looks *l)
-{
-    json_decref(l->materials);
-    json_decref(l->textures);
-    json_decref(l->images);
-    free(l->pictures);
-    *l = (struct gltf_looks){0};
 }

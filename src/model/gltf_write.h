@@ -19,13 +19,15 @@ enum {
     GLB_BIN = 0x004E4942,
 };
 
-/// All zero at first; without_memory stays set.
+/// All zero but its JSON at first; without_memory stays set.
 struct gltf_file {
-    json_t *views, *accessors;
+    json_t *root;      ///< views, accessors, materials and others are added to what it has
     json_int_t buffer; ///< that the bytes are in
     char *data;
     size_t size, capacity;
     bool without_memory;
+    struct gltf_picture *pictures; ///< of each texture: pictures that are the same are written once
+    json_int_t plain[2]; ///< the materials of closed and open parts that have none, from 1; 0: there is none yet
 };
 
 /// What the elements of an accessor are.
@@ -41,9 +43,6 @@ enum gltf_elements {
     ELEMENTS_KEY_VECTORS,
     ELEMENTS_TURNS
 };
-
-/// Continues the JSON of an existing file: additions follow what it has.
-void gltf_file_continue(struct gltf_file *file, json_t *root);
 
 /// Continues a file whose buffers have been read, and puts all bytes that the JSON refers to, pictures too, into the new file's one buffer.
 /// Errors: pictures that cannot keep their address.
@@ -71,15 +70,14 @@ json_int_t gltf_append(struct gltf_file *file, json_t *array, json_t *value);
 void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *value);
 
 /// Appends to a member that is an array; creates it if it is missing.
-void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value);
+json_int_t gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value);
 
-/// Completes the JSON of the rest (which it takes over; NULL: memory was short) and writes both: as .glb, whose buffer must be 0, or as
-/// text with the bytes in it. Numbers of the JSON read back equal, and its members keep their order.
+/// Describes the bytes in the JSON and writes both: as .glb, whose buffer must be 0, or as text with the bytes in it. Numbers of the JSON read back equal, and its members keep their order.
 /// False with a sentence if it cannot be made; the stream's errors are the caller's.
-bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error);
+bool gltf_file_write(struct gltf_file *file, bool binary, FILE *out, struct error *error);
 
 /// Writes a .glb of that name with gltf_file_write(), whole or not at all.
-bool gltf_file_save(struct gltf_file *file, json_t *root, const char *path, struct error *error);
+bool gltf_file_save(struct gltf_file *file, const char *path, struct error *error);
 void gltf_file_free(struct gltf_file *file);
 
 /// What the extras of a mesh say of a coordinate whose targets are scaled up.
@@ -134,16 +132,6 @@ void gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mes
 //
 // Polygons are kept as GLTF_POLYGONS has them: of two in a row each begins with another vertex.
 
-/// All zero but `file` at first. What fails leaves the file without memory.
-struct gltf_looks {
-    struct gltf_file *file;
-    json_t *materials, *textures, *images;
-    struct gltf_picture *pictures; ///< of each texture: pictures that are the same are written once
-    bool is_open;                  ///< the shape at hand: its materials show on both sides
-    bool has_plain[2], has_polygons;
-    json_int_t plain[2]; ///< the materials of closed and open parts that have none
-};
-
 /// A mesh. Vertices of the file may be several copies of one here; the arrays but `uv` and `indices` are by vertex here.
 struct gltf_shape {
     const char *name;
@@ -161,11 +149,8 @@ struct gltf_shape {
     const struct character *character; ///< its coordinates go into the extras; NULL: none
 };
 
-/// The JSON of a mesh, with a primitive for each material that triangles have, and one for those without, which share the vertices.
-json_t *gltf_shape_json(struct gltf_looks *looks, const struct gltf_shape *shape);
-
-/// Adds materials, textures, images and the list of used extensions to the JSON of the file.
-void gltf_looks_complete(struct gltf_looks *looks, json_t *root);
-void gltf_looks_free(struct gltf_looks *looks);
+/// The JSON of a mesh, with a primitive for each material that triangles have, and one for those without, which share the vertices. Adds the
+/// materials and their pictures to the file.
+json_t *gltf_shape_json(struct gltf_file *file, const struct gltf_shape *shape);
 
 #endif

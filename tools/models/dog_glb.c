@@ -87,10 +87,10 @@ static void add_bounds(struct output *o, json_t *accessor, const struct packed *
 static json_t *make_attributes(struct output *o, const struct packed *rows, size_t count, bool pictured)
 {
     const json_int_t number = gltf_file_add_bytes(&o->file, rows, count * sizeof *rows);
-    json_t *view = json_array_get(o->file.views, (size_t)number), *named = json_object();
+    json_t *view = json_array_get(json_object_get(o->file.root, "bufferViews"), (size_t)number),
+           *named = json_object();
     gltf_set(&o->file, view, "target", json_integer(ARRAY_BUFFER));
     gltf_set(&o->file, view, "byteStride", json_integer(sizeof *rows));
-    if (!o->file.accessors) o->file.accessors = json_array();
     for (int c = 0; c < (int)(sizeof columns / sizeof *columns); c++) {
         if (c == PICTURED && !pictured) continue;
         json_t *accessor =
@@ -98,7 +98,8 @@ static json_t *make_attributes(struct output *o, const struct packed *rows, size
                       "componentType", columns[c].type, "count", (json_int_t)count, "type", columns[c].shape);
         if (columns[c].normalized) gltf_set(&o->file, accessor, "normalized", json_true());
         if (c == PLACED) add_bounds(o, accessor, rows, count);
-        gltf_set(&o->file, named, columns[c].name, json_integer(gltf_append(&o->file, o->file.accessors, accessor)));
+        gltf_set(&o->file, named, columns[c].name,
+                 json_integer(gltf_append_to(&o->file, o->file.root, "accessors", accessor)));
     }
     return named;
 }
@@ -320,7 +321,7 @@ int main(int argc, char **argv)
         vertices += pieces.pieces[p].mesh.vertex_count;
         triangles += pieces.pieces[p].mesh.index_count / 3;
     }
-    struct output o = {.skeleton = &skeleton, .pieces = &pieces};
+    struct output o = {.skeleton = &skeleton, .pieces = &pieces, .file = {.root = json_object()}};
     if (model_write(argv[1], &o.file, make_json(&o), &error))
         printf("%s: %d joints, %d vertices, %d triangles\n", argv[1], skeleton.count, vertices, triangles);
     for (int p = 0; p < pieces.count; p++) mesh_free(&pieces.pieces[p].mesh);

@@ -214,7 +214,7 @@ static json_t *make_json(struct gltf_file *file)
 int main(int argc, char **argv)
 {
     struct error error = {0};
-    struct gltf_file file = {0};
+    struct gltf_file file = {.root = json_object()};
     if (argc != 2) {
         fputs("usage: fox_glb OUT.glb\n", stderr);
         return ERROR_USAGE;

@@ -1,6 +1,5 @@
 /// Grows and frees triangle meshes, and colours the fox's coat.
 #include "models/mesh.h"
-#include "base/file.h"
 #include "base/need.h"
 #include "base/png.h"
 #include "model/fox.h"
@@ -39,13 +38,12 @@ void mesh_free(struct mesh *mesh)
 
 bool model_write(const char *path, struct gltf_file *file, json_t *root, struct error *error)
 {
-    struct file_output out;
-    const bool opened = file_output_open(&out, path, error);
-    const bool written = opened && gltf_file_write(file, root, true, out.stream, error);
-    if (!opened) json_decref(root);
-    if (opened && !written) file_output_discard(&out);
+    if (json_object_update_missing(root, file->root) != 0) file->without_memory = true;
+    json_decref(file->root);
+    file->root = root;
+    const bool written = gltf_file_save(file, path, error);
     gltf_file_free(file);
-    return written && file_output_commit(&out, error);
+    return written;
 }
 
 #define EDGE 0.025f /* metres: half the width of a marking's edge; a narrower one costs triangles */

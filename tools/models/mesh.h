@@ -31,7 +31,7 @@ void mesh_triangle(struct mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
 /// Leaves an empty mesh, all zero.
 void mesh_free(struct mesh *mesh);
 
-/// Writes a model's .glb; takes the JSON over and frees the bytes.
+/// Writes a model's .glb; takes the JSON over, adds what the file has, and frees that.
 bool model_write(const char *path, struct gltf_file *file, json_t *root, struct error *error);
 
 // Colours of the coat. Linear RGB.
