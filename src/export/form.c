@@ -222,7 +222,7 @@ const struct gltf *form_gltf(const struct rig_pose *pose, struct pool *pool)
                 targets[own->target[n]] = (struct gltf_target){.position = offsets};
             }
         }
-        first += parts[p].shared ? 0 : parts[p].vertex_count;
+        first += gltf_own_vertices(&parts[p]);
     }
     return painted;
 }
@@ -231,7 +231,8 @@ static bool model_open(const struct posing *posing, int rig, const struct rig_po
                        struct error *error)
 {
     const struct model_rig *model = &posing->document->rigs[rig]->model;
-    const struct gltf *gltf = form->gltf = form_gltf(pose, &form->pool);
+    const struct gltf *gltf = form->gltf;
+    (void)pose;
     const int clip = gltf_find_clip(gltf, model->clip);
     const size_t nodes = (size_t)gltf->node_count;
     form->clip = clip >= 0 ? &gltf->clips[clip] : NULL;
@@ -373,10 +374,7 @@ static void skeleton_key(const struct form *form, const struct rig_pose *pose, s
 
 const struct form_kind skeleton_form = {.holds = FORM_JOINTS, .open = skeleton_open, .key = skeleton_key};
 
-// --- vertices as points, in the order of the file
-
-/// Vertices that a part does not share with its mesh's first: a cache has a row for each of the file's.
-static int own_vertices(const struct gltf_part *part) { return part->shared ? 0 : part->vertex_count; }
+// --- vertices as points, in the order of the file: a cache has a row for each that parts do not share
 
 /// Whether a node's mesh is a part of the form.
 static bool shows(const struct form *form, int node)
@@ -400,19 +398,12 @@ void form_vertices(const struct form *form, const struct rig_pose *pose, bool as
     float(*const posed)[3] = need((size_t)most, sizeof *posed);
     for (int n = 0; n < gltf->node_count; n++) {
         if (!shows(form, n)) continue;
-        if (pose->model.figure && n == pose->model.figure->character.node) {
-            struct model_pose inside = pose->model;
-            memcpy(inside.root, GLM_MAT4_IDENTITY, sizeof inside.root);
-            figure_vertices(&inside, to, NULL, NULL, NULL);
-            to += inside.figure->character.vertex_count;
-            continue;
-        }
         const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[n].mesh];
         float(*from)[3] = posed;
         gltf_pose_vertices(gltf, pose->model.pose, n, from, NULL);
         for (const struct gltf_part *part = mesh->parts; part < mesh->parts + mesh->part_count; part++) {
-            memcpy(to, from, (size_t)own_vertices(part) * sizeof *to);
-            to += own_vertices(part);
+            memcpy(to, from, (size_t)gltf_own_vertices(part) * sizeof *to);
+            to += gltf_own_vertices(part);
             from += part->vertex_count;
         }
     }
@@ -475,7 +466,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     for (int i = 0; i < rig; i++) names_add(&names, form_name(document->rigs[i]));
     form->name = pool_text(&form->pool, names_add(&names, form_name(source)), "", "");
     names_free(&names);
-    form->gltf = pose.model.gltf;
+    form->gltf = form_gltf(&pose, &form->pool);
     form->figure = pose.model.figure;
     form->soft = form->figure ? form->figure->character.node : -1;
     if (!form->kind->open(range->posing, rig, &pose, form, error)) {
@@ -485,7 +476,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     for (int n = 0; n < form->gltf->node_count; n++) {
         if (!shows(form, n)) continue;
         const struct gltf_mesh *mesh = &form->gltf->meshes[form->gltf->nodes[n].mesh];
-        for (int p = 0; p < mesh->part_count; p++) form->vertex_count += own_vertices(&mesh->parts[p]);
+        for (int p = 0; p < mesh->part_count; p++) form->vertex_count += gltf_own_vertices(&mesh->parts[p]);
     }
     return true;
 }

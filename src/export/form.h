@@ -112,7 +112,7 @@ struct form {
     struct pool pool;   ///< of what is made for it, and its keys
     struct names names; ///< of joints, where these must differ
     const char *name;
-    const struct gltf *gltf;      ///< the model that is posed; of a character form_gltf()
+    const struct gltf *gltf;      ///< form_gltf()
     const struct gltf_clip *clip; ///< of a character, that plays; NULL: none
     const struct figure *figure;  ///< its soft mesh; NULL: none
     int soft;                     ///< the node of that, if drives move its morph weights; −1: none

@@ -41,6 +41,7 @@ struct usda_model {
     } * shapes;                   ///< of each weight
     struct usda_joint *joints;    ///< parents before their children
     int joint_count;
+    bool moves;             ///< any of them
     int *joint_of;          ///< of each node: the last of its joints; −1: none
     const char **materials; ///< their prims
     const char **skeletons;
@@ -202,6 +203,7 @@ static void add_joint(struct usda_model *model, int node, int parent, enum usda_
     double local[16];
     *joint = (struct usda_joint){
         .node = node, .parent = parent, .part = part, .moves = part != JOINT_SCALE && moves(model, node)};
+    model->moves |= joint->moves;
     joint->title = pool_text(&model->pool, model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "", "");
     joint->name = usda_name(&model->joint_names, joint->title, true);
     rest_of(model, j, parent >= 0 ? local : joint->world);
@@ -301,14 +303,7 @@ static void write_joints(const struct usda_model *model, bool moving)
     fputs("]\n", model->out);
 }
 
-static bool any_moves(const struct usda_model *model)
-{
-    bool any = false;
-    for (int j = 0; j < model->joint_count; j++) any |= model->joints[j].moves;
-    return any;
-}
-
-static bool is_animated(const struct usda_model *model) { return any_moves(model) || model->gltf->weight_count > 0; }
+static bool is_animated(const struct usda_model *model) { return model->moves || model->gltf->weight_count > 0; }
 
 static void write_skeleton(struct usda_model *model, int skeleton)
 {
@@ -393,7 +388,7 @@ static void write_samples(const struct usda_model *model, const char *declaratio
 static void write_animation(const struct usda_model *model)
 {
     fputs("        def SkelAnimation \"animation\"\n        {\n", model->out);
-    if (any_moves(model)) {
+    if (model->moves) {
         write_joints(model, true);
         write_samples(model, "float3[] translations", TRANSLATIONS);
         write_samples(model, "quatf[] rotations", ROTATIONS);

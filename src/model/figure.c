@@ -8,41 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Sums over the edges around a vertex, for the least-squares fit of derivatives along t₁ and t₂: the normal matrix.
-struct fit {
-    float uu, uv, vv;
-};
-
-/// Adds weight · difference · (u, v) to both derivatives.
-static void add_difference(const float a[3], const float b[3], const float uv[2], float weight, float by_u[3],
-                           float by_v[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const float difference = weight * (b[k] - a[k]);
-        by_u[k] += difference * uv[0];
-        by_v[k] += difference * uv[1];
-    }
-}
-
-/// (by_u, by_v) = (normal matrix)⁻¹ (by_u, by_v)
-static void solve_fit(const struct fit *fit, float by_u[3], float by_v[3])
-{
-    const float determinant = fit->uu * fit->vv - fit->uv * fit->uv, trace = fit->uu + fit->vv;
-    const float inverse =
-        determinant > 1e-6f * trace * trace ? 1.0f / determinant : 0.0f; // 0: the edges span no plane
-    for (int k = 0; k < 3; k++) {
-        const float u = by_u[k], v = by_v[k];
-        by_u[k] = inverse * (fit->vv * u - fit->uv * v);
-        by_v[k] = inverse * (fit->uu * v - fit->uv * u);
-    }
-}
-
 static struct slope *slope_at(const struct figure *figure, int coordinate, int part, int vertex)
 {
     const ptrdiff_t row = (ptrdiff_t)coordinate * figure->parts + part;
     return &figure->slopes[row * figure->character.vertex_count + vertex];
 }
 
+/// Fits derivatives along t₁ and t₂ by least squares to the differences along the edges around a vertex.
 static void fit_slope(struct figure *figure, int coordinate, int vertex)
 {
     const struct character *c = &figure->character;
@@ -51,7 +23,9 @@ static void fit_slope(struct figure *figure, int coordinate, int vertex)
     const vec3s across = glms_vec3_cross(vec3_from(c->normal[vertex]), tangent);
     const int parts = coordinate_parts(n);
     struct slope s[COORDINATE_PARTS] = {0};
-    struct fit fit = {0};
+    struct {
+        float uu, uv, vv;
+    } fit = {0}; // the normal matrix
     for (int e = figure->edges.first[vertex]; e < figure->edges.first[vertex + 1]; e++) {
         const uint32_t other = figure->edges.other[e];
         const vec3s edge = glms_vec3_sub(vec3_from(c->position[other]), vec3_from(c->position[vertex]));
@@ -61,13 +35,24 @@ static void fit_slope(struct figure *figure, int coordinate, int vertex)
         fit.uu += weight * uv[0] * uv[0];
         fit.uv += weight * uv[0] * uv[1];
         fit.vv += weight * uv[1] * uv[1];
-        for (int p = 0; p < parts; p++)
-            add_difference(n->parts[p][vertex], n->parts[p][other], uv, weight, s[p].u, s[p].v);
+        for (int i = 0; i < 3 * parts; i++) {
+            const int p = i / 3, k = i % 3;
+            const float difference = weight * (n->parts[p][other][k] - n->parts[p][vertex][k]);
+            s[p].u[k] += difference * uv[0];
+            s[p].v[k] += difference * uv[1];
+        }
     }
-    for (int p = 0; p < parts; p++) {
-        solve_fit(&fit, s[p].u, s[p].v);
-        *slope_at(figure, coordinate, p, vertex) = s[p];
+
+    // The inverse of the normal matrix times both derivatives.
+    const float determinant = fit.uu * fit.vv - fit.uv * fit.uv, trace = fit.uu + fit.vv;
+    const float inverse =
+        determinant > 1e-6f * trace * trace ? 1.0f / determinant : 0.0f; // 0: the edges span no plane
+    for (int i = 0; i < 3 * parts; i++) {
+        const float u = s[i / 3].u[i % 3], v = s[i / 3].v[i % 3];
+        s[i / 3].u[i % 3] = inverse * (fit.vv * u - fit.uv * v);
+        s[i / 3].v[i % 3] = inverse * (fit.uu * v - fit.uv * u);
     }
+    for (int p = 0; p < parts; p++) *slope_at(figure, coordinate, p, vertex) = s[p];
 }
 
 /// Measures the largest amplitudes of a coordinate.

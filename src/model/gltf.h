@@ -102,6 +102,9 @@ struct gltf_part {
         shared; ///< its vertices are those of the mesh's first part, at the same addresses; so is `uv`, unless materials differ in that
 };
 
+/// Its vertices that are not those of the mesh's first part.
+static inline int gltf_own_vertices(const struct gltf_part *part) { return part->shared ? 0 : part->vertex_count; }
+
 /// Whether the triangle at index `i` goes on with the polygon of the one before.
 static inline bool gltf_joins(const struct gltf_part *part, int i)
 {

@@ -94,14 +94,6 @@ static const struct gltf_mesh *choose_mesh(const struct gltf *gltf)
     return first;
 }
 
-/// The character's vertex number of a part's first vertex; `next` receives the next part's.
-static int first_vertex(const struct gltf_part *part, int *next)
-{
-    const int first = part->shared ? 0 : *next;
-    *next += part->shared ? 0 : part->vertex_count;
-    return first;
-}
-
 // --- coordinates
 
 /// The number of parts of the coordinate whose real part a target is, 0: of none; and which targets they are.
@@ -143,10 +135,8 @@ static double real_of(const json_t *object, const char *key)
 /// Reads a target's vectors. An export scales targets so that weights stay within 0 … 1.
 static void take_target(const struct gltf_mesh *mesh, int target, double sign, double scale, float (*vectors)[3])
 {
-    int next = 0;
-    for (int p = 0; p < mesh->part_count; p++) {
+    for (int p = 0, base = 0; p < mesh->part_count; base += gltf_own_vertices(&mesh->parts[p++])) {
         const struct gltf_part *part = &mesh->parts[p];
-        const int base = first_vertex(part, &next);
         if (part->shared || !part->targets[target].position) continue;
         for (int i = 0; i < part->vertex_count; i++) {
             for (int k = 0; k < 3; k++)
@@ -204,12 +194,11 @@ bool character_read(const char *path, struct character *c, struct error *error)
 bool character_from_gltf(const struct gltf *gltf, struct character *c, struct error *error)
 {
     size_t vertices = 0, coordinates = 0, arrays = 0, length, i;
-    int parts[COORDINATE_PARTS] = {0}, next = 0;
+    int parts[COORDINATE_PARTS] = {0};
     *c = (struct character){0};
     const size_t most = gltf->room / (2 * sizeof *c->position);
     const struct gltf_mesh *mesh = choose_mesh(gltf);
-    for (int p = 0; mesh && p < mesh->part_count; p++)
-        vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
+    for (int p = 0; mesh && p < mesh->part_count; p++) vertices += (size_t)gltf_own_vertices(&mesh->parts[p]);
     for (int t = 0; mesh && t < mesh->target_count; t++) {
         const int count = find_parts(mesh, t, &length, parts);
         coordinates += count > 0;
@@ -226,9 +215,8 @@ bool character_from_gltf(const struct gltf *gltf, struct character *c, struct er
     struct surface surface = {0};
     made = surface_of_mesh(gltf, mesh, &surface) && character_create(c, &surface, (int)coordinates);
     surface_free(&surface);
-    for (int p = 0; made && p < mesh->part_count; p++) {
+    for (int p = 0, base = 0; made && p < mesh->part_count; base += gltf_own_vertices(&mesh->parts[p++])) {
         const struct gltf_part *part = &mesh->parts[p];
-        const int base = first_vertex(part, &next);
         if (!part->shared && part->normal)
             memcpy(c->normal + base, part->normal, (size_t)part->vertex_count * sizeof *part->normal);
     }

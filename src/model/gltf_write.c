@@ -268,8 +268,8 @@ static json_int_t add_material(struct gltf_file *file, const struct looks_materi
         gltf_set(file, base, "baseColorFactor",
                  json_pack("[f, f, f, f]", (double)c[0], (double)c[1], (double)c[2], (double)c[3]));
     if (kind) {
-        size_t t = 0, count = json_array_size(
-                          json_object_get(file->root, "textures")); // the texture of a picture is made if it is new
+        const size_t count = json_array_size(json_object_get(file->root, "textures"));
+        size_t t = 0; // the texture of a picture is made if it is new
         while (t < count && (file->pictures[t].size != material->image_size ||
                              memcmp(file->pictures[t].bytes, material->image, material->image_size) != 0))
             t++;
