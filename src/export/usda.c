@@ -414,6 +414,15 @@ static void begin_shader(FILE *out, const char *name, const char *id)
     fprintf(out, "                    uniform token info:id = \"%s\"\n", id);
 }
 
+/// A shader that reads an array of the vertices.
+static void read_primvar(FILE *out, const char *name, const char *type, const char *array)
+{
+    fprintf(out, "\n                def Shader \"%s\"\n                {\n", name);
+    fprintf(out, "                    uniform token info:id = \"UsdPrimvarReader_%s\"\n", type);
+    fprintf(out, "                    string inputs:varname = \"%s\"\n", array);
+    fprintf(out, "                    %s outputs:result\n                }\n", type);
+}
+
 /// "input.connect = </…>", to an output of another shader of the material.
 static void connect(const struct usda_model *model, const char *material, const char *input, const char *output)
 {
@@ -506,13 +515,9 @@ static bool write_materials(struct usda_model *model, struct error *error)
             fprintf(out, "                    token inputs:wrapT = \"%s\"\n", wrap_of(m->sampler.wrap[1]));
             fputs("                    float outputs:a\n                    float3 outputs:rgb\n                }\n",
                   out);
-            begin_shader(out, "st", "UsdPrimvarReader_float2");
-            fputs("                    string inputs:varname = \"st\"\n", out);
-            fputs("                    float2 outputs:result\n                }\n", out);
+            read_primvar(out, "st", "float2", "st");
         } else if (!is_plain) { // colours by vertex hold the material's own
-            begin_shader(out, "color", "UsdPrimvarReader_float3");
-            fputs("                    string inputs:varname = \"displayColor\"\n", out);
-            fputs("                    float3 outputs:result\n                }\n", out);
+            read_primvar(out, "color", "float3", "displayColor");
         }
         fputs("            }\n\n", out);
     }

@@ -199,10 +199,6 @@ static bool move_view(json_t *view, const size_t *starts, size_t count)
 
 bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *error)
 {
-    static const struct {
-        const char *start, *kind;
-        size_t length;
-    } known[] = {{"\x89PNG", "image/png", 4}, {"\xFF\xD8", "image/jpeg", 2}, {"\xABKTX 20", "image/ktx2", 7}};
     json_t *view, *extension, *image;
     size_t i;
     file->root = json_incref(source->json);
@@ -234,17 +230,14 @@ bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *
             continue;
         }
         const struct glb_bytes bytes = picture.bytes;
-        const bool webp =
-            bytes.size >= 12 && memcmp(bytes.at, "RIFF", 4) == 0 && memcmp(bytes.at + 8, "WEBP", 4) == 0;
-        const char *kind = webp ? "image/webp" : NULL;
-        for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
-            if (bytes.size >= known[k].length && memcmp(bytes.at, known[k].start, known[k].length) == 0)
-                kind = known[k].kind;
-        }
+        const char *kind = looks_image_kind(bytes.at, bytes.size);
+        if (bytes.size >= 7 && memcmp(bytes.at, "\xABKTX 20", 7) == 0) kind = "ktx2";
+        if (bytes.size >= 12 && memcmp(bytes.at, "RIFF", 4) == 0 && memcmp(bytes.at + 8, "WEBP", 4) == 0)
+            kind = "webp";
         if (kind) {
             const json_int_t own = gltf_file_add_bytes(file, picture.bytes.at, picture.bytes.size);
             gltf_set(file, image, "bufferView", json_integer(own));
-            gltf_set(file, image, "mimeType", json_string(kind));
+            gltf_set(file, image, "mimeType", json_sprintf("image/%s", kind));
             json_object_del(image, "uri");
         }
         free(picture.owned);

@@ -80,9 +80,6 @@ void surface_free(struct surface *surface);
 /// "png" or "jpeg" by a picture's first bytes, or NULL.
 const char *looks_image_kind(const unsigned char *bytes, size_t size);
 
-/// Bytes of all its pictures.
-size_t looks_image_bytes(const struct looks *looks);
-
 void looks_free(struct looks *looks);
 
 #endif
