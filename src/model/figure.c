@@ -499,7 +499,7 @@ void painted_update(struct painted *painted, const float (*paint)[2])
     }
 }
 
-// --- distances along a surface, by Dijkstra from a few starting points
+// --- distances along a surface, by paths that are made shorter until none can be
 
 static const float SHORTER = 0.86f; ///< 1/1.16
 
@@ -510,77 +510,54 @@ void reach_create(struct reach *reach, struct pool *pool, int vertices)
     reach->distance = pool_take(pool, room, sizeof *reach->distance);
     reach->vertices = pool_take(pool, room, sizeof *reach->vertices);
     reach->along = pool_take(pool, room, sizeof *reach->along);
-    reach->heap = pool_take(pool, room, sizeof *reach->heap);
-    reach->place = pool_take(pool, room, sizeof *reach->place);
+    reach->queue = pool_take(pool, room, sizeof *reach->queue);
+    reach->waits = pool_take(pool, room, sizeof *reach->waits);
     for (int i = 0; i < vertices; i++) reach->distance[i] = reach->along[i] = INFINITY;
 }
 
-static void put(struct reach *reach, int at, int vertex)
+/// Offers a path of that length to a vertex, which then waits to offer it to its neighbours.
+static void offer(struct reach *reach, uint32_t vertex, float along, float limit)
 {
-    reach->heap[at] = vertex;
-    reach->place[vertex] = at;
-}
-
-/// Offers a path of that length to a vertex.
-static void offer(struct reach *reach, uint32_t vertex, float along)
-{
-    if (!(along < reach->along[vertex])) return;
-    const bool is_new = reach->along[vertex] == INFINITY;
+    if (!(along < reach->along[vertex] && SHORTER * along <= limit)) return;
+    if (reach->along[vertex] == INFINITY) reach->vertices[reach->count++] = (int)vertex;
     reach->along[vertex] = along;
-    int at = is_new ? reach->heap_count++ : reach->place[vertex];
-    while (at > 0 && along < reach->along[reach->heap[(at - 1) / 2]]) { // up to its place in the heap
-        put(reach, at, reach->heap[(at - 1) / 2]);
-        at = (at - 1) / 2;
-    }
-    put(reach, at, (int)vertex);
-}
-
-static void spot_position(const struct surface_spot *spot, const float (*positions)[3], float out[3])
-{
-    vec3s sum = glms_vec3_zero();
-    for (int c = 0; c < 3; c++) sum = glms_vec3_muladds(vec3_from(positions[spot->corner[c]]), spot->weight[c], sum);
-    glm_vec3_copy(sum.raw, out);
+    if (reach->waits[vertex]) return;
+    reach->waits[vertex] = true;
+    reach->queue[(reach->first + reach->waiting++) % reach->capacity] = (int)vertex;
 }
 
 void reach_find(struct reach *reach, const struct figure *figure, const struct surface_spot *spots, int count,
                 float limit)
 {
     const float(*positions)[3] = (const float(*)[3])figure->character.position;
+    vec3s at[REACH_MAX_SPOTS];
     for (int i = 0; i < reach->count; i++)
         reach->distance[reach->vertices[i]] = reach->along[reach->vertices[i]] = INFINITY;
-    for (int i = 0; i < reach->heap_count; i++) reach->along[reach->heap[i]] = INFINITY;
-    reach->count = reach->heap_count = 0;
+    reach->count = 0;
     for (int s = 0; s < count; s++) {
-        float at[3];
-        spot_position(&spots[s], positions, at);
+        const uint32_t *corner = spots[s].corner;
+        at[s] = glms_vec3_zero();
         for (int c = 0; c < 3; c++)
-            offer(reach, spots[s].corner[c],
-                  glms_vec3_distance(vec3_from(at), vec3_from(positions[spots[s].corner[c]])));
+            at[s] = glms_vec3_muladds(vec3_from(positions[corner[c]]), spots[s].weight[c], at[s]);
+        for (int c = 0; c < 3; c++)
+            offer(reach, corner[c], glms_vec3_distance(at[s], vec3_from(positions[corner[c]])), limit);
     }
-    while (reach->heap_count > 0 && SHORTER * reach->along[reach->heap[0]] <= limit) {
-        const int vertex = reach->heap[0], last = reach->heap[--reach->heap_count];
-        int hole = 0; // the last sinks from the top to its place in the heap
-        for (int child; (child = 2 * hole + 1) < reach->heap_count; hole = child) {
-            const int *heap = reach->heap;
-            if (child + 1 < reach->heap_count && reach->along[heap[child + 1]] < reach->along[heap[child]]) child++;
-            if (reach->along[last] <= reach->along[heap[child]]) break;
-            put(reach, hole, heap[child]);
-        }
-        if (reach->heap_count > 0) put(reach, hole, last);
-        const float along = reach->along[vertex];
-        reach->vertices[reach->count++] = vertex;
-        float straight = INFINITY; // the shortest line from a spot
-        for (int s = 0; s < count; s++) {
-            float at[3];
-            spot_position(&spots[s], positions, at);
-            straight = fminf(straight, glms_vec3_distance(vec3_from(at), vec3_from(positions[vertex])));
-        }
-        reach->distance[vertex] = fmaxf(SHORTER * along, straight);
+    for (; reach->waiting > 0; reach->waiting--) {
+        const int vertex = reach->queue[reach->first];
+        reach->waits[vertex] = false;
         for (int e = figure->edges.first[vertex]; e < figure->edges.first[vertex + 1]; e++) {
             const uint32_t other = figure->edges.other[e];
-            offer(reach, other,
-                  along + glms_vec3_distance(vec3_from(positions[vertex]), vec3_from(positions[other])));
+            const float edge = glms_vec3_distance(vec3_from(positions[vertex]), vec3_from(positions[other]));
+            offer(reach, other, reach->along[vertex] + edge, limit);
         }
+        reach->first = (reach->first + 1) % reach->capacity;
+    }
+    for (int i = 0; i < reach->count; i++) {
+        const int vertex = reach->vertices[i];
+        float straight = INFINITY; // the shortest line from a spot
+        for (int s = 0; s < count; s++)
+            straight = fminf(straight, glms_vec3_distance(at[s], vec3_from(positions[vertex])));
+        reach->distance[vertex] = fmaxf(SHORTER * reach->along[vertex], straight);
     }
 }
 

@@ -136,7 +136,7 @@ void painted_update(struct painted *painted, const float (*paint)[2]);
 // Distances along a figure's surface from a few spots on it, up to a limit: a brush must not reach what is near only
 // through the air.
 //
-// Shortest paths along edges (Dijkstra) zigzag, and are up to 16 % too long on a regular mesh; straight lines are too short
+// Shortest paths along edges zigzag, and are up to 16 % too long on a regular mesh; straight lines are too short
 // where the surface bends. The distance is the larger of the straight line and the path along edges shortened by 16 %: circles
 // on flat surfaces stay round.
 
@@ -153,10 +153,10 @@ struct reach {
     int *vertices;   ///< those within it
     int count, capacity;
     // private
-    float *along; ///< shortest way along edges so far, INFINITY: none
-    int *heap;    ///< vertices on the way, a binary heap by `along`
-    int *place;   ///< of a vertex in it
-    int heap_count;
+    float *along;       ///< shortest way along edges so far, INFINITY: none
+    int *queue;         ///< a ring of vertices whose neighbours have not heard of that
+    bool *waits;        ///< of each vertex: it is in the queue
+    int first, waiting; ///< of the queue
 };
 
 /// For a figure of so many vertices; its memory is the pool's.

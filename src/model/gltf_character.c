@@ -11,6 +11,18 @@
 
 const char *const coordinate_endings[COORDINATE_PARTS] = {".re", ".im", ".sq", ".re2", ".im2"};
 
+/// Some parts of a coordinate, all zero. False if memory is short.
+static bool make_parts(struct character *c, int coordinate, int first, int end)
+{
+    bool whole = true;
+    for (int p = first; p < end; p++) {
+        float(**part)[3] = &c->coordinates[coordinate].parts[p];
+        *part = calloc((size_t)c->vertex_count, sizeof **part);
+        whole = whole && *part;
+    }
+    return whole;
+}
+
 bool character_create(struct character *c, struct surface *surface, int coordinates)
 {
     *c = (struct character){
@@ -26,12 +38,8 @@ bool character_create(struct character *c, struct surface *surface, int coordina
     bool whole = c->normal && c->color && c->coordinates;
     for (int n = 0; whole && !surface->color && n < 3 * c->vertex_count; n++) c->color[n / 3][n % 3] = 1;
     *surface = (struct surface){0};
-    for (int i = 0; whole && i < coordinates; i++) {
-        struct coordinate *coordinate = &c->coordinates[c->coordinate_count++];
-        coordinate->re = calloc((size_t)c->vertex_count, sizeof *coordinate->re);
-        coordinate->im = calloc((size_t)c->vertex_count, sizeof *coordinate->im);
-        whole = coordinate->re && coordinate->im;
-    }
+    for (int i = 0; whole && i < coordinates; i++)
+        whole = make_parts(c, c->coordinate_count++, 0, COORDINATE_STRAIGHT);
     if (!whole) {
         character_free(c);
         return false;
@@ -42,11 +50,7 @@ bool character_create(struct character *c, struct surface *surface, int coordina
 
 bool character_curve(struct character *c, int coordinate)
 {
-    struct coordinate *of = &c->coordinates[coordinate];
-    of->sq = calloc((size_t)c->vertex_count, sizeof *of->sq);
-    of->re2 = calloc((size_t)c->vertex_count, sizeof *of->re2);
-    of->im2 = calloc((size_t)c->vertex_count, sizeof *of->im2);
-    return of->sq && of->re2 && of->im2;
+    return make_parts(c, coordinate, COORDINATE_STRAIGHT, COORDINATE_PARTS);
 }
 
 void character_find_normals(struct character *c)

@@ -317,10 +317,8 @@ bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds)
 void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose, int but,
                     float lo[3], float hi[3])
 {
-    for (int k = 0; k < 3; k++) {
-        lo[k] = INFINITY;
-        hi[k] = -INFINITY;
-    }
+    glm_vec3_fill(lo, INFINITY);
+    glm_vec3_fill(hi, -INFINITY);
     for (int f = 0; f < bounds->count; f++) {
         const struct gltf_box *box = &bounds->boxes[f];
         const struct gltf_node *node = &gltf->nodes[box->node];
@@ -341,20 +339,15 @@ void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, c
         mixes &= sum < 1.001f;
         const float share = fminf(mixes ? sum : largest, 1.0f);
         const enum gltf_reach larger = mixes ? GLTF_ONE_TARGET : GLTF_ALL_TARGETS;
-        float from[3], to[3];
+        vec3 reached[2];
         for (int k = 0; k < 3; k++) {
-            from[k] = box->lo[GLTF_AT_REST][k] + share * (box->lo[larger][k] - box->lo[GLTF_AT_REST][k]);
-            to[k] = box->hi[GLTF_AT_REST][k] + share * (box->hi[larger][k] - box->hi[GLTF_AT_REST][k]);
+            reached[0][k] = box->lo[GLTF_AT_REST][k] + share * (box->lo[larger][k] - box->lo[GLTF_AT_REST][k]);
+            reached[1][k] = box->hi[GLTF_AT_REST][k] + share * (box->hi[larger][k] - box->hi[GLTF_AT_REST][k]);
         }
-        for (int k = 0; k < 3; k++) {
-            float middle = m[12 + k], reach = 0.0f;
-            for (int a = 0; a < 3; a++) {
-                middle += m[4 * a + k] * 0.5f * (from[a] + to[a]);
-                reach += fabsf(m[4 * a + k]) * 0.5f * (to[a] - from[a]);
-            }
-            lo[k] = fminf(lo[k], middle - reach);
-            hi[k] = fmaxf(hi[k], middle + reach);
-        }
+        mat4s placed = mat4_from(m);
+        glm_aabb_transform(reached, placed.raw, reached);
+        glm_vec3_minv(reached[0], lo, lo);
+        glm_vec3_maxv(reached[1], hi, hi);
     }
 }
 

@@ -738,14 +738,6 @@ static bool read_clips(struct gltf_reader *r)
 
 // --- the file
 
-static void widen(struct gltf *gltf, const float at[3])
-{
-    for (int k = 0; k < 3; k++) {
-        gltf->lo[k] = fminf(gltf->lo[k], at[k]);
-        gltf->hi[k] = fmaxf(gltf->hi[k], at[k]);
-    }
-}
-
 uint64_t gltf_new_id(void)
 {
     static atomic_uint_fast64_t last;
@@ -822,9 +814,15 @@ static bool read_all(struct gltf_reader *r)
     for (int n = 0; n < gltf->node_count; n++) {
         int count = gltf_vertex_count(gltf, n);
         gltf_pose_vertices(gltf, &pose, n, positions, NULL);
-        for (int v = 0; v < count; v++) widen(gltf, positions[v]);
+        for (int v = 0; v < count; v++) {
+            glm_vec3_minv(positions[v], gltf->lo, gltf->lo);
+            glm_vec3_maxv(positions[v], gltf->hi, gltf->hi);
+        }
     }
-    for (int n = 0; most == 0 && n < gltf->node_count; n++) widen(gltf, pose.world[n] + 12);
+    for (int n = 0; most == 0 && n < gltf->node_count; n++) {
+        glm_vec3_minv(pose.world[n] + 12, gltf->lo, gltf->lo);
+        glm_vec3_maxv(pose.world[n] + 12, gltf->hi, gltf->hi);
+    }
     gltf_pose_free(&pose);
     free(positions);
     for (int k = 0; k < 3; k++) {

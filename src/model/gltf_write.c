@@ -124,13 +124,12 @@ static void write_words(FILE *out, uint32_t a, uint32_t b)
 
 bool gltf_file_write(struct gltf_file *file, bool binary, FILE *out, struct error *error)
 {
-    json_t *root = file->root;
-    char *text = NULL;
-    const bool fits = file->size < UINT32_MAX / 2;
-    if (root && fits && file->size > 0) { // describe the buffer of the bytes
-        if (json_array_size(json_object_get(root, "buffers")) <= (size_t)file->buffer)
-            gltf_append_to(file, root, "buffers", json_object());
-        json_t *buffer = json_array_get(json_object_get(root, "buffers"), (size_t)file->buffer);
+    if (file->size >= UINT32_MAX / 2)
+        return fail(error, ERROR_ENVIRONMENT, "a glTF file holds at most 2 GB: choose fewer keys or frames");
+    if (file->size > 0) { // describe the buffer of the bytes
+        if (json_array_size(json_object_get(file->root, "buffers")) <= (size_t)file->buffer)
+            gltf_append_to(file, file->root, "buffers", json_object());
+        json_t *buffer = json_array_get(json_object_get(file->root, "buffers"), (size_t)file->buffer);
         gltf_set(file, buffer, "byteLength", json_integer((json_int_t)file->size));
         if (!binary) {
             static const char start[] = "data:application/octet-stream;base64,";
@@ -140,13 +139,10 @@ bool gltf_file_write(struct gltf_file *file, bool binary, FILE *out, struct erro
             free(address);
         }
     }
-    if (root && fits && !file->without_memory)
-        text = json_dumps(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
-    if (!text) {
-        return fail(error, ERROR_ENVIRONMENT,
-                    fits ? "not enough memory, or a name is not UTF-8"
-                         : "a glTF file holds at most 2 GB: choose fewer keys or frames");
-    }
+    char *text = file->without_memory
+                     ? NULL
+                     : json_dumps(file->root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
+    if (!text) return fail(error, ERROR_ENVIRONMENT, "not enough memory, or a name is not UTF-8");
     if (binary) {
         const size_t length = strlen(text), padded = (length + 3) / 4 * 4,
                      chunk = file->size > 0 ? 8 + file->size : 0;

@@ -202,24 +202,20 @@ static void builder_merge(struct surface_builder *b)
 {
     struct surface *s = b->surface;
     const size_t count = (size_t)s->vertex_count;
-    struct spot *spots = malloc((count + 1) * sizeof *spots);
-    uint32_t *name =
-        malloc((count + 1) * sizeof *name); // first each vertex's earliest at its place, then that one's new number
-    if (spots && name) {
-        spots_sort((const float(*)[3])s->position, s->vertex_count, spots);
-        spots_first(spots, s->vertex_count, name);
-        s->vertex_count = 0;
-        for (size_t i = 0; i < count; i++) {
-            const bool is_first = name[i] == (uint32_t)i;
-            if (is_first) memmove(s->position[s->vertex_count], s->position[i], sizeof *s->position);
-            name[i] = is_first ? (uint32_t)s->vertex_count++ : name[name[i]];
-        }
-        for (int i = 0; i < s->index_count; i++) s->indices[i] = name[s->indices[i]];
-    } else {
-        b->failed = true;
+    struct pool work = {0};
+    struct spot *spots = pool_take(&work, count, sizeof *spots);
+    uint32_t *name = pool_take(&work, count,
+                               sizeof *name); // first each vertex's earliest at its place, then that one's new number
+    spots_sort((const float(*)[3])s->position, s->vertex_count, spots);
+    spots_first(spots, s->vertex_count, name);
+    s->vertex_count = 0;
+    for (size_t i = 0; i < count; i++) {
+        const bool is_first = name[i] == (uint32_t)i;
+        if (is_first) memmove(s->position[s->vertex_count], s->position[i], sizeof *s->position);
+        name[i] = is_first ? (uint32_t)s->vertex_count++ : name[name[i]];
     }
-    free(spots);
-    free(name);
+    for (int i = 0; i < s->index_count; i++) s->indices[i] = name[s->indices[i]];
+    pool_free(&work);
 }
 
 /// Drops triangles that name a vertex twice, texture coordinates without corners, and materials without triangles. Fails if no vertices or no
