@@ -1,4 +1,4 @@
-/// Reads a glTF character: meshes with their vertices and morph targets, nodes, skins and animations.
+/// Reads a glTF character: materials with their pictures, meshes with their vertices and morph targets, nodes, skins and animations.
 #include "base/names.h"
 #include "base/need.h"
 #include "maths/maths.h"
@@ -14,7 +14,36 @@
 
 enum { PIXEL_ROOM = 256 << 20, VERTEX_LIMIT = 1 << 24, NAME_ROOM = 512 };
 
-void *gltf_make(struct gltf_reader *r, size_t count, size_t size)
+/// Where the base colour of a material lies on its texture.
+struct gltf_uv {
+    int set; ///< TEXCOORD_n
+    float offset[2], rotation, scale[2];
+};
+
+/// The state of reading a file. Functions set `error` when they fail; what was read so far is freed with `gltf`.
+struct gltf_reader {
+    struct glb file;
+    struct gltf *gltf;
+    struct error *error;
+    struct pool work;     ///< numbers of the thing that is being read
+    bool stored;          ///< gltf_read_stored()
+    char place[96];       ///< in the JSON, for messages
+    struct gltf_uv *uvs;  ///< of each material
+    int *joints_of;       ///< of each mesh: its joints' numbers are below
+    int *image_of;        ///< gltf.images of each image of the file: −1 cannot be shown, −2 not tried yet
+    size_t pixel_room;    ///< bytes of pixels that may still be decoded
+    size_t not_shown_end; ///< length of gltf.not_shown
+};
+
+/// The part of the JSON that is being read.
+#define gltf_at(r, ...) snprintf((r)->place, sizeof(r)->place, __VA_ARGS__)
+
+/// Fails with "file: place" and then the text, which begins with ".member: " or ": ".
+#define gltf_bad(r, format, ...)                                                                                     \
+    fail((r)->error, ERROR_INPUT, "%s: %s" format, (r)->file.path, (r)->place, ##__VA_ARGS__)
+
+/// Zeroed memory that is freed with the character, if the file is large enough to justify so much; else NULL and an error.
+static void *gltf_make(struct gltf_reader *r, size_t count, size_t size)
 {
     if (count > r->file.room / size) {
         gltf_bad(r, ": expected no more data than fits a file of this size, got %zu times %zu bytes", count, size);
@@ -26,7 +55,8 @@ void *gltf_make(struct gltf_reader *r, size_t count, size_t size)
     return memory;
 }
 
-bool gltf_index(struct gltf_reader *r, const json_t *object, const char *key, int limit, int *index)
+/// A member that is an index into an array of `limit` things; −1 if it is missing.
+static bool gltf_index(struct gltf_reader *r, const json_t *object, const char *key, int limit, int *index)
 {
     const json_t *member = json_object_get(object, key);
     json_int_t value = json_is_integer(member) ? json_integer_value(member) : -1;
@@ -42,7 +72,8 @@ bool gltf_index(struct gltf_reader *r, const json_t *object, const char *key, in
     return true;
 }
 
-bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, float *numbers, size_t count)
+/// A member that is an array of `count` numbers; unchanged if it is missing.
+static bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, float *numbers, size_t count)
 {
     const json_t *array = json_object_get(object, key);
     if (!array) return true;
@@ -58,7 +89,8 @@ bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, fl
     return true;
 }
 
-char *gltf_text(struct gltf_reader *r, const char *text)
+/// A copy that stays with the character.
+static char *gltf_text(struct gltf_reader *r, const char *text)
 {
     char *copy = pool_try(&r->gltf->pool, strlen(text) + 1, 1);
     if (!copy) fail_no_memory(r->error, r->file.path);
@@ -72,7 +104,8 @@ static const char *own_name(const json_t *object)
     return name && !name_is_blank(name) ? name : NULL;
 }
 
-char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n)
+/// The name of a thing, or "kind n".
+static char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n)
 {
     char made[64];
     const char *name = own_name(object);
@@ -106,9 +139,14 @@ static bool name_all(struct gltf_reader *r, const json_t *array, const char *kin
     return done;
 }
 
-const json_t *gltf_array(const struct gltf_reader *r, const char *key) { return json_object_get(r->file.json, key); }
+/// An array of the file's root; NULL if there is none.
+static const json_t *gltf_array(const struct gltf_reader *r, const char *key)
+{
+    return json_object_get(r->file.json, key);
+}
 
-bool gltf_not_shown(struct gltf_reader *r, const char *format, ...)
+/// Adds a name to those not shown, once.
+static bool __attribute__((format(printf, 2, 3))) gltf_not_shown(struct gltf_reader *r, const char *format, ...)
 {
     char name[128];
     va_list arguments;
@@ -124,6 +162,168 @@ bool gltf_not_shown(struct gltf_reader *r, const char *format, ...)
     if (!longer) return fail_no_memory(r->error, r->file.path);
     r->gltf->not_shown = longer;
     r->not_shown_end = end + (size_t)sprintf(longer + end, "%s%s", end ? ", " : "", name);
+    return true;
+}
+
+// --- pictures
+
+/// Keeps the encoded bytes and, unless they are only stored, decodes them. `why` receives the error.
+static bool read_picture(struct gltf_reader *r, const json_t *json, struct gltf_image *image, struct error *why)
+{
+    const char *name = json_string_value(json_object_get(json, "name"));
+    const char *uri = json_string_value(json_object_get(json, "uri"));
+    const size_t before = r->file.room;
+    struct glb_buffer bytes = {0};
+    const bool found = uri ? glb_read_uri(&r->file, uri, &bytes, why)
+                           : glb_view(&r->file, glb_integer(json, "bufferView", -1), &bytes.bytes);
+    r->pixel_room += r->file.room - before;
+    if (!found) return uri ? false : fail(why, ERROR_INPUT, "no bytes in the file");
+    const size_t size = bytes.bytes.size;
+    if (!r->stored && !gltf_decode_image(bytes.bytes.at, size, r->pixel_room, image, why)) {
+        free(bytes.owned);
+        return false;
+    }
+    r->pixel_room -= r->stored ? 0 : 4 * (size_t)image->width * (size_t)image->height;
+    if (!bytes.owned && size > r->file.room) {
+        free(image->pixels);
+        return fail(why, ERROR_INPUT, "too large with %zu bytes", size);
+    }
+    if (!bytes.owned) r->file.room -= size;
+    image->bytes = bytes.owned ? bytes.owned : malloc(size + 1);
+    image->name = name && name[0] ? gltf_text(r, name) : NULL;
+    image->size = size;
+    if (image->bytes && !bytes.owned) memcpy(image->bytes, bytes.bytes.at, size);
+    if (image->bytes && (image->name || !name || !name[0])) return true;
+    free(image->pixels);
+    free(image->bytes);
+    return fail(why, ERROR_ENVIRONMENT, "not enough memory");
+}
+
+// --- materials
+
+/// Sets a sampler's number that glTF knows. Unknown numbers by other programs are ignored.
+static void take(const json_t *json, const char *key, const int *known, int *number)
+{
+    const int64_t value = glb_integer(json, key, *number);
+    for (; *known; known++) {
+        if (value == *known) *number = *known;
+    }
+}
+
+static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_uv *uv,
+                         struct gltf_material *material)
+{
+    static const int wraps[] = {GLTF_REPEATED, GLTF_MIRRORED, GLTF_CLAMPED, 0};
+    static const int filters[] = {GLTF_READ_NEAREST,
+                                  GLTF_READ_LINEAR,
+                                  GLTF_READ_SMALLER,
+                                  GLTF_READ_SMALLER + 1,
+                                  GLTF_READ_SMALLER + 2,
+                                  GLTF_READ_BETWEEN,
+                                  0};
+    static const int near[] = {GLTF_READ_NEAREST, GLTF_READ_LINEAR, 0};
+    const json_t *textures = gltf_array(r, "textures"), *images = gltf_array(r, "images");
+    const json_t *transform = json_object_get(json_object_get(info, "extensions"), "KHR_texture_transform");
+    const json_t *samplers = gltf_array(r, "samplers");
+    int texture, source, sampler;
+    if (!gltf_index(r, info, "index", (int)json_array_size(textures), &texture)) return false;
+    if (texture < 0) return true;
+    int64_t set = glb_integer(transform, "texCoord", glb_integer(info, "texCoord", 0));
+    if (set < 0) return gltf_bad(r, ".texCoord: expected the number of a set of coordinates, got something else");
+    uv->set = (int)set;
+    uv->rotation = (float)json_number_value(json_object_get(transform, "rotation"));
+    if (!gltf_reals(r, transform, "offset", uv->offset, 2) || !gltf_reals(r, transform, "scale", uv->scale, 2))
+        return false;
+    gltf_at(r, "textures[%d]", texture);
+    const json_t *described = json_array_get(textures, (size_t)texture);
+    if (!gltf_index(r, described, "source", (int)json_array_size(images), &source) ||
+        !gltf_index(r, described, "sampler", (int)json_array_size(samplers), &sampler))
+        return false;
+    if (sampler >= 0) {
+        const json_t *of = json_array_get(samplers, (size_t)sampler);
+        take(of, "wrapS", wraps, &material->sampler.wrap[0]);
+        take(of, "wrapT", wraps, &material->sampler.wrap[1]);
+        take(of, "minFilter", filters, &material->sampler.far);
+        take(of, "magFilter", near, &material->sampler.near);
+    }
+    if (source < 0) return true;
+
+    // Each image of the file is added to gltf.images once; −1, and it is listed as not shown, if that fails.
+    if (r->image_of[source] == -2) {
+        const json_t *json = json_array_get(images, (size_t)source);
+        struct gltf_image *image = &r->gltf->images[r->gltf->image_count];
+        struct error why = {0};
+        const bool read = read_picture(r, json, image, &why);
+        if (!read) *image = (struct gltf_image){0};
+        r->image_of[source] = read ? r->gltf->image_count++ : -1;
+        if (why.kind == ERROR_ENVIRONMENT) return fail_no_memory(r->error, r->file.path);
+        if (!read) { // called by its own name, or its file's
+            const char *name = json_string_value(json_object_get(json, "name"));
+            const char *uri = json_string_value(json_object_get(json, "uri"));
+            if (!name || !name[0]) name = uri && strncmp(uri, "data:", 5) != 0 ? uri : "of no name";
+            if (!gltf_not_shown(r, "image %.40s (%.60s)", name, why.text)) return false;
+        }
+    }
+    material->image = r->image_of[source];
+    return true;
+}
+
+/// A factor, 1 if it is missing.
+static double number_of(const json_t *object, const char *key)
+{
+    const json_t *number = json_object_get(object, key);
+    return number ? json_number_value(number) : 1;
+}
+
+static bool gltf_read_materials(struct gltf_reader *r)
+{
+    /// Properties of a material that are not shown: their place and name.
+    static const struct {
+        const char *key, *name;
+    } ignored[] = {
+        {"normalTexture", "normal maps"}, {"occlusionTexture", "occlusion maps"}, {"emissiveTexture", "emission"}};
+    static const struct gltf_sampler usual = {
+        .wrap = {GLTF_REPEATED, GLTF_REPEATED}, .far = GLTF_READ_BETWEEN, .near = GLTF_READ_LINEAR};
+    const json_t *materials = gltf_array(r, "materials"), *json;
+    size_t i, count = json_array_size(materials), images = json_array_size(gltf_array(r, "images"));
+    gltf_at(r, "materials");
+    r->gltf->materials = gltf_make(r, count, sizeof *r->gltf->materials);
+    r->uvs = r->gltf->materials ? gltf_make(r, count, sizeof *r->uvs) : NULL;
+    r->gltf->images = r->uvs ? gltf_make(r, images, sizeof *r->gltf->images) : NULL;
+    r->image_of = r->gltf->images ? gltf_make(r, images, sizeof *r->image_of) : NULL;
+    if (!r->image_of) return false;
+    for (i = 0; i < images; i++) r->image_of[i] = -2;
+    json_array_foreach(materials, i, json)
+    {
+        gltf_at(r, "materials[%zu]", i);
+        struct gltf_material *material = &r->gltf->materials[r->gltf->material_count++];
+        const char *mode = json_string_value(json_object_get(json, "alphaMode"));
+        const json_t *cutoff = json_object_get(json, "alphaCutoff");
+        *material = (struct gltf_material){.color = {1, 1, 1, 1}, .image = -1, .sampler = usual};
+        r->uvs[i] = (struct gltf_uv){.scale = {1, 1}};
+        const json_t *metal = json_object_get(json, "pbrMetallicRoughness");
+        const json_t *maps = json_object_get(metal, "metallicRoughnessTexture");
+        material->shines = metal && !maps;
+        material->metallic = number_of(metal, "metallicFactor");
+        material->roughness = number_of(metal, "roughnessFactor");
+        material->double_sided = json_is_true(json_object_get(json, "doubleSided"));
+        material->blended = mode && strcmp(mode, "BLEND") == 0;
+        if (mode && strcmp(mode, "MASK") == 0) material->cutoff = cutoff ? (float)json_number_value(cutoff) : 0.5f;
+        for (size_t k = 0; k < sizeof ignored / sizeof *ignored; k++) {
+            if (json_object_get(json, ignored[k].key) && !gltf_not_shown(r, "%s", ignored[k].name)) return false;
+        }
+        if (maps && !gltf_not_shown(r, "metal and roughness maps")) return false;
+
+        // The base colour; the older of two material descriptions calls it diffuse.
+        const json_t *gloss =
+            json_object_get(json_object_get(json, "extensions"), "KHR_materials_pbrSpecularGlossiness");
+        const bool older = gloss && !metal;
+        const json_t *from = older ? gloss : metal;
+        if (!gltf_reals(r, from, older ? "diffuseFactor" : "baseColorFactor", material->color, 4) ||
+            !read_texture(r, json_object_get(from, older ? "diffuseTexture" : "baseColorTexture"), &r->uvs[i],
+                          material))
+            return false;
+    }
     return true;
 }
 

@@ -200,17 +200,13 @@ bool motion_columns(const struct motion *motion, int first, int count, double *s
 
 // --- writing
 
-static void print_swapped(FILE *out, uint32_t bits)
-{
-    bits = __builtin_bswap32(bits);
-    fwrite(&bits, sizeof bits, 1, out);
-}
-
-static void print_swapped_float(FILE *out, float number)
+/// A number of four bytes, big endian.
+static void print_swapped(FILE *out, const void *number)
 {
     uint32_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    print_swapped(out, bits);
+    memcpy(&bits, number, sizeof bits);
+    bits = __builtin_bswap32(bits);
+    fwrite(&bits, sizeof bits, 1, out);
 }
 
 void motion_print_start(FILE *out, enum motion_form form, const struct motion_span *span)
@@ -227,9 +223,9 @@ void motion_print_start(FILE *out, enum motion_form form, const struct motion_sp
         fwrite(time, 4, 2, out);
         fwrite(&after, 4, 1, out);
     } else {
-        print_swapped(out, (uint32_t)span->frames);
-        print_swapped(out, (uint32_t)span->vertices);
-        for (int i = 0; i < span->frames; i++) print_swapped_float(out, (float)(span->first + i * span->spacing));
+        print_swapped(out, &span->frames);
+        print_swapped(out, &span->vertices);
+        for (int i = 0; i < span->frames; i++) print_swapped(out, &(float){(float)(span->first + i * span->spacing)});
     }
 }
 
@@ -240,7 +236,7 @@ void motion_print_frame(FILE *out, enum motion_form form, const float (*position
         return;
     }
     for (int i = 0; i < vertices; i++) {
-        for (int k = 0; k < 3; k++) print_swapped_float(out, position[i][k]);
+        for (int k = 0; k < 3; k++) print_swapped(out, &position[i][k]);
     }
 }
 

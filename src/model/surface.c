@@ -121,20 +121,17 @@ static void builder_linear_color(struct surface_builder *b, const float rgb[3])
     }
 }
 
-/// The first of three numbers that is far outside the range of colours (0 … 1), which could not be written and read again; NULL: none.
-static const double *builder_wrong_color(const double srgb[3])
-{
-    for (int k = 0; k < 3; k++) {
-        if (!(fabs(srgb[k]) <= COLOR_LIMIT)) return &srgb[k];
-    }
-    return NULL;
-}
-
-static void builder_color(struct surface_builder *b, const double srgb[3])
+/// Colours the newest vertex, sRGB. Returns the first number that is far outside the range of colours (0 … 1), which could not be written and
+/// read again; else NULL.
+static const double *builder_color(struct surface_builder *b, const double srgb[3])
 {
     float rgb[3];
-    for (int k = 0; k < 3; k++) rgb[k] = srgb_to_linear((float)srgb[k]);
+    for (int k = 0; k < 3; k++) {
+        if (!(fabs(srgb[k]) <= COLOR_LIMIT)) return &srgb[k];
+        rgb[k] = srgb_to_linear((float)srgb[k]);
+    }
     builder_linear_color(b, rgb);
+    return NULL;
 }
 
 static void builder_vertex(struct surface_builder *b, const double position[3])
@@ -479,11 +476,10 @@ static bool obj_read(struct words *w, struct surface_builder *builder)
             if (count < 0) return false;
             if (count < 3) return words_expected(w, "three coordinates of a vertex");
             builder_vertex(builder, numbers);
-            const double *wrong = count == 6 ? builder_wrong_color(numbers + 3) : NULL;
+            const double *wrong = count == 6 ? builder_color(builder, numbers + 3) : NULL;
             if (wrong)
                 return fail(w->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", w->path, w->line,
                             *wrong);
-            if (count == 6) builder_color(builder, numbers + 3);
         } else if (words_take(w, "vt")) { // u [v [w]], from the lower left of the picture
             double numbers[2] = {0};
             if (obj_read_numbers(w, numbers, 2) < 0) return false;
@@ -712,11 +708,10 @@ static bool ply_read_one(struct ply *ply, const struct element *e)
     if (!e->vertices) return true;
     builder_vertex(b, values + X);
     if (e->has[RED] && e->has[GREEN] && e->has[BLUE]) {
-        const double *wrong = builder_wrong_color(values + RED);
+        const double *wrong = builder_color(b, values + RED);
         if (wrong)
             return fail(w->error, ERROR_INPUT, "%s: vertex %d: expected a colour from 0 to 1, got %g", w->path,
                         b->surface->vertex_count, *wrong);
-        builder_color(b, values + RED);
     }
     if (ply->textured) builder_uv(b, values[U], 1 - values[V]);
     return true;
@@ -904,11 +899,10 @@ static bool off_read(struct words *w, struct surface_builder *b)
         if (colors) {
             const bool bytes = rgb[0] > 1 || rgb[1] > 1 || rgb[2] > 1;
             for (int k = 0; k < 3; k++) rgb[k] = rgb[k] / (bytes ? 255 : 1);
-            const double *wrong = builder_wrong_color(rgb);
+            const double *wrong = builder_color(b, rgb);
             if (wrong)
                 return fail(w->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, or to 255, got %g", w->path,
                             w->line, *wrong * (bytes ? 255 : 1));
-            builder_color(b, rgb);
         }
         if (uvs) builder_uv(b, numbers[uv], 1 - numbers[uv + 1]);
     }
