@@ -537,6 +537,12 @@ struct run {
     int count;
     int influences; ///< joints a vertex; 0: all hangs at the node's own
     const char *name;
+    struct run_vertex {
+        const struct gltf_part *part;
+        int number; ///< in that
+    } * vertices;   ///< of the prim
+    int vertex_count;
+    uint32_t *first; ///< of each part: the vertex of the prim that its first one is
 };
 
 static bool has_skin(const struct usda_model *model, int node, const struct gltf_part *part)
@@ -550,20 +556,22 @@ static int skeleton_of(const struct run *run)
     return skin >= 0 ? skin : 0;
 }
 
-/// Whether a part has the vertices of the first, which are written once, except of a character, whose materials may differ in colour. Where
+/// Lists the vertices. A part that has those of the first shares them, except of a character, whose materials may differ in colour; where
 /// texture coordinates differ it has its own.
-static bool is_left_out(const struct run *run, int p)
+static void list_vertices(struct run *run)
 {
-    const struct gltf_part *part = &run->parts[p];
-    return run->model->is_own && p > 0 && part->position == run->parts->position && part->uv == run->parts->uv;
-}
-
-/// The vertex of the prim that a part's first one is; `next` counts them.
-static int first_vertex(const struct run *run, int p, int *next)
-{
-    const int first = is_left_out(run, p) ? 0 : *next;
-    *next += is_left_out(run, p) ? 0 : run->parts[p].vertex_count;
-    return first;
+    struct pool *pool = &run->model->pool;
+    size_t most = 0;
+    for (int p = 0; p < run->count; p++) most += (size_t)run->parts[p].vertex_count;
+    run->first = pool_take(pool, (size_t)run->count, sizeof *run->first);
+    run->vertices = pool_take(pool, most, sizeof *run->vertices);
+    for (int p = 0; p < run->count; p++) {
+        const struct gltf_part *part = &run->parts[p], *one = run->parts;
+        if (run->model->is_own && p > 0 && part->position == one->position && part->uv == one->uv) continue;
+        run->first[p] = (uint32_t)run->vertex_count;
+        for (int v = 0; v < part->vertex_count; v++)
+            run->vertices[run->vertex_count++] = (struct run_vertex){part, v};
+    }
 }
 
 // --- arrays by vertex
@@ -582,26 +590,24 @@ static void write_vertices(const struct run *run, const char *declaration, enum 
 {
     const struct usda_model *model = run->model;
     FILE *out = model->out;
-    const char *before = "";
     fprintf(out, "            %s = [", declaration);
-    for (int p = 0; p < run->count; p++) {
-        const struct gltf_part *part = &run->parts[p];
-        for (int v = 0; v < part->vertex_count && !is_left_out(run, p); v++) {
-            const float *uv = array == UVS && part->uv ? part->uv[v] : (const float[]){0, 0};
-            if (array == POINTS) usda_vector(out, before, part->position[v]);
-            if (array == NORMALS) usda_vector(out, before, part->normal[v]);
-            if (array == UVS) fprintf(out, "%s(%.9g, %.9g)", before, (double)uv[0], 1 - (double)uv[1]); // upwards
-            for (int i = 0; array >= JOINT_INDICES && i < run->influences; i++) {
-                const float weight = part->weights[v][i];
-                const int slot = weight != 0 ? part->joints[v][i] : 0;
-                fputs(i > 0 ? ", " : before, out);
-                if (array == JOINT_WEIGHTS) {
-                    fprintf(out, "%.9g", (double)weight);
-                } else {
-                    fprintf(out, "%d", model->joint_of[model->gltf->skins[skeleton_of(run)].joints[slot]]);
-                }
+    for (int n = 0; n < run->vertex_count; n++) {
+        const struct gltf_part *part = run->vertices[n].part;
+        const int v = run->vertices[n].number;
+        const char *before = n > 0 ? ", " : "";
+        const float *uv = array == UVS && part->uv ? part->uv[v] : (const float[]){0, 0};
+        if (array == POINTS) usda_vector(out, before, part->position[v]);
+        if (array == NORMALS) usda_vector(out, before, part->normal[v]);
+        if (array == UVS) fprintf(out, "%s(%.9g, %.9g)", before, (double)uv[0], 1 - (double)uv[1]); // upwards
+        for (int i = 0; array >= JOINT_INDICES && i < run->influences; i++) {
+            const float weight = part->weights[v][i];
+            const int slot = weight != 0 ? part->joints[v][i] : 0;
+            fputs(i > 0 ? ", " : before, out);
+            if (array == JOINT_WEIGHTS) {
+                fprintf(out, "%.9g", (double)weight);
+            } else {
+                fprintf(out, "%d", model->joint_of[model->gltf->skins[skeleton_of(run)].joints[slot]]);
             }
-            before = ", ";
         }
     }
     fputs("]", out);
@@ -626,15 +632,11 @@ static void write_offsets(const struct run *run, int target, bool normals)
 {
     static const float still[3] = {0};
     FILE *out = run->model->out;
-    const char *before = "";
     fprintf(out, "                uniform vector3f[] %s = [", normals ? "normalOffsets" : "offsets");
-    for (int p = 0; p < run->count; p++) {
-        const struct gltf_target *of = &run->parts[p].targets[target];
+    for (int n = 0; n < run->vertex_count; n++) {
+        const struct gltf_target *of = &run->vertices[n].part->targets[target];
         const float(*by)[3] = normals ? of->normal : of->position;
-        for (int i = 0; i < run->parts[p].vertex_count && !is_left_out(run, p); i++) {
-            usda_vector(out, before, by ? by[i] : still);
-            before = ", ";
-        }
+        usda_vector(out, n > 0 ? ", " : "", by ? by[run->vertices[n].number] : still);
     }
     fputs("]\n", out);
 }
@@ -673,11 +675,10 @@ static void write_run(struct run *run)
     FILE *out = model->out;
     // The joints that a vertex has at most; where a part has no skin, all of the run's have none.
     const bool is_skinned = has_skin(model, run->node, run->parts);
-    for (int p = 0; is_skinned && p < run->count; p++) {
-        for (int i = 0; i < run->parts[p].vertex_count; i++) {
-            for (int k = run->influences; k < GLTF_INFLUENCES; k++) {
-                if (run->parts[p].weights[i][k] != 0) run->influences = k + 1;
-            }
+    list_vertices(run);
+    for (int n = 0; is_skinned && n < run->vertex_count; n++) {
+        for (int k = run->influences; k < GLTF_INFLUENCES; k++) {
+            if (run->vertices[n].part->weights[run->vertices[n].number][k] != 0) run->influences = k + 1;
         }
     }
     if (is_skinned && run->influences == 0) run->influences = 1;
@@ -696,18 +697,17 @@ static void write_run(struct run *run)
     if (run->parts->normal) write_vertices(run, "normal3f[] normals", NORMALS);
 
     // The material's colour times the vertex's: where two materials meet, that of the later triangle.
-    int count = 0, next = 0;
-    for (int p = 0; p < run->count; p++) first_vertex(run, p, &count);
+    const int count = run->vertex_count;
     float(*tint)[3] = need(((size_t)count + 1), sizeof *tint);
     for (int i = 0; i < 3 * count; i++) tint[i / 3][i % 3] = 1;
     for (int p = 0; p < run->count; p++) {
         const struct gltf_part *part = &run->parts[p];
-        const int first = first_vertex(run, p, &next);
         for (int i = 0; i < part->index_count; i++) {
             const uint32_t v = part->indices[i];
             for (int k = 0; k < 3; k++)
-                tint[first + (int)v][k] = (part->color ? part->color[v][k] : 1) *
-                                          (part->material >= 0 ? model->gltf->materials[part->material].color[k] : 1);
+                tint[run->first[p] + v][k] =
+                    (part->color ? part->color[v][k] : 1) *
+                    (part->material >= 0 ? model->gltf->materials[part->material].color[k] : 1);
         }
     }
     fputs("            color3f[] primvars:displayColor = [", out);
@@ -725,14 +725,12 @@ static void write_run(struct run *run)
         }
     }
     before = "";
-    next = 0;
     fputs("]\n            int[] faceVertexIndices = [", out);
     for (int p = 0; p < run->count; p++) {
         const struct gltf_part *part = &run->parts[p];
-        const uint32_t first = (uint32_t)first_vertex(run, p, &next);
         for (int i = 0; i < part->index_count; i++) {
             if (i % 3 < 2 && gltf_joins(part, i - i % 3)) continue;
-            fprintf(out, "%s%u", before, first + part->indices[i]);
+            fprintf(out, "%s%u", before, run->first[p] + part->indices[i]);
             before = ", ";
         }
     }

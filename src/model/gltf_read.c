@@ -397,18 +397,15 @@ static bool read_vertices(struct gltf_reader *r, const json_t *primitive, int ta
     }
 
     // The fox's own attributes, which glTF does not define. In other files these names may mean anything, so unsuitable ones are ignored.
-    static const char *const coat[] = {"_MARK", "_FUR"};
-    bool has_coat = true;
-    for (int i = 0; i < 2; i++) {
-        const json_t *accessor =
-            json_array_get(gltf_array(r, "accessors"), (size_t)glb_integer(attributes, coat[i], -1));
-        const char *shape = json_string_value(json_object_get(accessor, "type"));
-        has_coat = has_coat && shape && strcmp(shape, i ? "VEC2" : "VEC3") == 0 &&
-                   glb_integer(accessor, "count", -1) == count;
+    struct glb_numbers mark, fur;
+    struct error why = {0};
+    if (glb_numbers(&r->file, glb_integer(attributes, "_MARK", -1), &r->gltf->pool, &mark, &why) &&
+        glb_numbers(&r->file, glb_integer(attributes, "_FUR", -1), &r->gltf->pool, &fur, &why) &&
+        mark.count == count && mark.components == 3 && fur.count == count && fur.components == 2) {
+        part->mark = (float(*)[3])mark.values;
+        part->fur = (float(*)[2])fur.values;
     }
-    if (has_coat && !(read_rows(r, attributes, coat[0], 3, count, &part->mark) &&
-                      read_rows(r, attributes, coat[1], 2, count, &part->fur)))
-        return false;
+    if (why.kind == ERROR_ENVIRONMENT) return fail_no_memory(r->error, r->file.path);
 
     if (json_object_get(attributes, "JOINTS_0")) { // up to eight joints and weights a vertex
         for (int set = 0; set < 2; set++) {
@@ -1004,11 +1001,8 @@ static bool read_all(struct gltf_reader *r)
         int count = gltf_vertex_count(gltf, n);
         if (count > most) most = count;
     }
-    float(*positions)[3] = malloc(((size_t)most + 1) * sizeof *positions);
-    if (!positions || !gltf_pose_create(gltf, &pose)) {
-        free(positions);
-        return fail_no_memory(r->error, r->file.path);
-    }
+    float(*positions)[3] = pool_try(&r->work, (size_t)most, sizeof *positions);
+    if (!positions || !gltf_pose_create(gltf, &pose)) return fail_no_memory(r->error, r->file.path);
     glm_vec3_fill(gltf->lo, INFINITY);
     glm_vec3_fill(gltf->hi, -INFINITY);
     for (int n = 0; n < gltf->node_count; n++) {
@@ -1024,7 +1018,6 @@ static bool read_all(struct gltf_reader *r)
         glm_vec3_maxv(pose.world[n] + 12, gltf->hi, gltf->hi);
     }
     gltf_pose_free(&pose);
-    free(positions);
     for (int k = 0; k < 3; k++) {
         if (!isfinite(gltf->lo[k]) || !isfinite(gltf->hi[k]))
             return fail(r->error, ERROR_INPUT, "%s: expected a size that can be shown, got an infinite one",
