@@ -86,6 +86,8 @@ struct surface_builder {
     int vertices, colors, uvs, indices, corners, materials_of, joins, materials; ///< there is room for
     int polygon;                                                                 ///< corners of the open one
     uint32_t first[2], last[2]; ///< its first and its newest corner: vertex, texture coordinates
+    bool begun;                 ///< the open one has a triangle
+    bool is_flat;               ///< a triangle was left out
     bool failed;                ///< memory ran short and something is missing; stays set
 };
 
@@ -151,22 +153,28 @@ static void builder_uv(struct surface_builder *b, double u, double v)
     if (put(b, &looks->uv, looks->uv_count, &b->uvs, uv, sizeof uv)) looks->uv_count++;
 }
 
-/// The next corner of the open polygon, which becomes a fan of triangles. `uv` may be LOOKS_NONE.
+/// The next corner of the open polygon, which becomes a fan of triangles. `uv` may be LOOKS_NONE. A triangle that names a vertex twice is left
+/// out.
 static void builder_corner(struct surface_builder *b, uint32_t vertex, uint32_t uv)
 {
     const uint32_t corner[2] = {vertex, uv}, *const corners[3] = {b->first, b->last, corner};
     struct surface *s = b->surface;
     struct looks *looks = &s->looks;
-    const uint8_t joined = b->polygon > 2;
-    bool added = b->polygon >= 2;
-    for (int k = 0; k < 3; k++) {
-        const int at = s->index_count + k;
-        added = added && put(b, &s->indices, at, &b->indices, corners[k], sizeof(uint32_t)) &&
-                put(b, &looks->corner, at, &b->corners, corners[k] + 1, sizeof(uint32_t));
+    const int n = s->index_count;
+    if (b->polygon >= 2 && triangle_repeats((const uint32_t[]){b->first[0], b->last[0], vertex})) {
+        b->is_flat = true;
+    } else if (b->polygon >=
+               2) { // behind one that was left out it is a fan of its own, unless that was its last corner
+        const uint8_t joined = b->begun && b->last[0] == s->indices[n - 1] && b->last[1] == looks->corner[n - 1];
+        bool added = put(b, &looks->material, n / 3, &b->materials_of, &b->material, sizeof b->material) &&
+                     put(b, &looks->joined, n / 3, &b->joins, &joined, sizeof joined);
+        for (int k = 0; k < 3; k++) {
+            added = added && put(b, &s->indices, n + k, &b->indices, corners[k], sizeof(uint32_t)) &&
+                    put(b, &looks->corner, n + k, &b->corners, corners[k] + 1, sizeof(uint32_t));
+        }
+        if (added) s->index_count += 3;
+        b->begun = true;
     }
-    if (added && put(b, &looks->material, s->index_count / 3, &b->materials_of, &b->material, sizeof b->material) &&
-        put(b, &looks->joined, s->index_count / 3, &b->joins, &joined, sizeof joined))
-        s->index_count += 3;
     memcpy(b->polygon ? b->last : b->first, corner, sizeof corner);
     b->polygon++;
 }
@@ -176,6 +184,7 @@ static int builder_end_polygon(struct surface_builder *b)
 {
     const int corners = b->polygon;
     b->polygon = 0;
+    b->begun = false;
     return corners;
 }
 
@@ -194,51 +203,37 @@ static uint32_t builder_material(struct surface_builder *b, const char *name)
     return b->failed ? LOOKS_NONE : (uint32_t)m;
 }
 
-/// Merges vertices at the same place, which have no colours.
+/// Makes triangles of vertices, three each, and merges those at the same place.
 static void builder_merge(struct surface_builder *b)
 {
     struct surface *s = b->surface;
-    const size_t count = (size_t)s->vertex_count;
+    const uint32_t count = (uint32_t)s->vertex_count;
     struct pool work = {0};
     struct spot *spots = pool_take(&work, count, sizeof *spots);
-    uint32_t *name = pool_take(&work, count,
-                               sizeof *name); // first each vertex's earliest at its place, then that one's new number
+    uint32_t *name =
+        pool_take(&work, count, sizeof *name); // first the earliest at its place, then that one's new number
     spots_sort((const float(*)[3])s->position, s->vertex_count, spots);
     spots_first(spots, s->vertex_count, name);
     s->vertex_count = 0;
-    for (size_t i = 0; i < count; i++) {
-        const bool is_first = name[i] == (uint32_t)i;
+    for (uint32_t i = 0; i < count; i++) {
+        const bool is_first = name[i] == i;
         if (is_first) memmove(s->position[s->vertex_count], s->position[i], sizeof *s->position);
         name[i] = is_first ? (uint32_t)s->vertex_count++ : name[name[i]];
+        builder_corner(b, name[i], LOOKS_NONE);
+        if (i % 3 == 2) builder_end_polygon(b);
     }
-    for (int i = 0; i < s->index_count; i++) s->indices[i] = name[s->indices[i]];
     pool_free(&work);
 }
 
-/// Drops triangles that name a vertex twice, texture coordinates without corners, and materials without triangles. Fails if no vertices or no
+/// Drops texture coordinates without corners, and materials without triangles. Fails if no vertices or no
 /// triangles remain; `kind` is for the message, as in "a PLY file". On failure the surface is empty.
 static bool builder_finish(struct surface_builder *b, const char *path, const char *kind, struct error *error)
 {
     struct surface *s = b->surface;
     struct looks *looks = &s->looks;
-    const char *missing = s->vertex_count == 0 ? "vertices" : s->index_count == 0 ? "faces" : NULL;
-    int kept = 0;
-    bool begun = false,
-         textured = false; // whether a triangle of the polygon was kept: the rest stays one if it is still a fan
-    for (int t = 0; !b->failed && t < s->index_count / 3; t++) {
-        const uint32_t *corner = s->indices + 3 * t;
-        begun = begun && looks->joined[t];
-        if (triangle_repeats(corner)) continue;
-        looks->joined[kept] =
-            begun && corner[1] == s->indices[3 * kept - 1] && looks->corner[3 * t + 1] == looks->corner[3 * kept - 1];
-        looks->material[kept] = looks->material[t];
-        memmove(s->indices + 3 * kept, corner, 3 * sizeof *s->indices);
-        memmove(looks->corner + 3 * kept, looks->corner + 3 * t, 3 * sizeof *looks->corner);
-        begun = true;
-        kept++;
-    }
-    s->index_count = 3 * kept;
-    if (b->failed || missing || kept == 0) {
+    const char *missing = s->vertex_count == 0 ? "vertices" : s->index_count == 0 && !b->is_flat ? "faces" : NULL;
+    bool textured = false;
+    if (b->failed || missing || s->index_count == 0) {
         surface_free(s);
         if (b->failed) return fail_no_memory(error, path);
         if (missing) return fail(error, ERROR_INPUT, "%s: expected %s with %s, got none", path, kind, missing);
@@ -255,7 +250,7 @@ static bool builder_finish(struct surface_builder *b, const char *path, const ch
         looks->uv_count = 0;
     }
     bool dressed = false, polygons = false;
-    for (int t = 0; t < kept; t++) {
+    for (int t = 0; t < s->index_count / 3; t++) {
         dressed = dressed || looks->material[t] < (uint32_t)looks->material_count;
         polygons = polygons || looks->joined[t];
     }
@@ -794,12 +789,6 @@ static bool ply_read(struct words *w, struct surface_builder *builder)
 
 enum { HEAD = 84, FACET = 50, COUNT_AT = 80, CORNERS_AT = 12 };
 
-static void stl_add_corner(struct surface_builder *b, const double position[3])
-{
-    builder_corner(b, (uint32_t)b->surface->vertex_count, LOOKS_NONE);
-    builder_vertex(b, position);
-}
-
 static bool stl_read(struct words *w, struct surface_builder *b)
 {
     const size_t size = (size_t)(w->end - w->at);
@@ -813,6 +802,7 @@ static bool stl_read(struct words *w, struct surface_builder *b)
         return fail(w->error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: the file is cut off",
                     w->path, whole, count, size);
     double p[3];
+    int corners = 0; // of the facet
     // facet normal … outer loop vertex x y z ×3 endloop endfacet, in capitals or not; "end loop" in two words, too. Only vertices and ends
     // of facets matter.
     while (text && words_more(w) && !b->failed) {
@@ -821,12 +811,13 @@ static bool stl_read(struct words *w, struct surface_builder *b)
             for (int k = 0; k < 3; k++) {
                 if (!words_number(w, "three coordinates of a vertex", &p[k])) return false;
             }
-            stl_add_corner(b, p);
+            builder_vertex(b, p);
+            corners++;
         } else if (words_take(w, "endfacet") || (ends && words_take(w, "facet"))) {
-            const int corners = builder_end_polygon(b);
             if (corners != 3)
                 return fail(w->error, ERROR_INPUT, "%s:%d: expected a facet of three vertices, got %d", w->path,
                             w->line, corners);
+            corners = 0;
         } else if (words_take(w, "solid") || words_take(w, "endsolid")) {
             // Its name goes to the end of the line, or to the first facet where the file is a single line.
             while (*w->at && *w->at != '\n' && strncasecmp(w->at, "facet normal", 12) != 0) w->at++;
@@ -837,7 +828,7 @@ static bool stl_read(struct words *w, struct surface_builder *b)
             return words_expected(w, "a facet");
         }
     }
-    if (text && b->polygon) return words_expected(w, "endfacet");
+    if (corners > 0) return words_expected(w, "endfacet");
     for (uint32_t i = 0; !text && i < count && !b->failed; i++) {
         for (int corner = 0; corner < 3; corner++) {
             const char *at = w->at + HEAD + (size_t)i * FACET + CORNERS_AT + 12 * corner;
@@ -847,9 +838,8 @@ static bool stl_read(struct words *w, struct surface_builder *b)
                     return fail(w->error, ERROR_INPUT, "%s: facet %u: expected finite numbers, got NaN or infinity",
                                 w->path, i);
             }
-            stl_add_corner(b, p);
+            builder_vertex(b, p);
         }
-        builder_end_polygon(b);
     }
     if (!b->failed) builder_merge(b);
     return true;
