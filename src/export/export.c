@@ -165,12 +165,9 @@ bool sidecars_add(struct sidecars *sidecars, const char *folder, const char *nam
     }
     sidecars->files = need_more(sidecars->files, (size_t)sidecars->count + 1, sizeof *sidecars->files);
     struct sidecar *file = &sidecars->files[sidecars->count];
-    if (asprintf(&file->path, "%s/%s", folder, name) < 0) need_failed();
+    file->path = pool_text(&sidecars->paths, folder, "/", name);
     file->is_new = access(file->path, F_OK) != 0;
-    if (!file_check_place(file->path, error) || !file_output_open(&file->output, file->path, error)) {
-        free(file->path);
-        return false;
-    }
+    if (!file_check_place(file->path, error) || !file_output_open(&file->output, file->path, error)) return false;
     sidecars->count++;
     fwrite(data, 1, size, file->output.stream); // whether it could be written is seen as it is committed
     return true;
@@ -187,8 +184,8 @@ bool sidecars_commit(struct sidecars *sidecars, struct error *error)
 /// Keeps committed files.
 static void sidecars_free(struct sidecars *sidecars)
 {
-    for (int i = 0; i < sidecars->count; i++) free(sidecars->files[i].path);
     free(sidecars->files);
+    pool_free(&sidecars->paths);
     *sidecars = (struct sidecars){0};
 }
 

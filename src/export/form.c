@@ -121,12 +121,6 @@ const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = tail_col
 
 // --- a soft character without bones: its mesh, and the morph targets of each coordinate, as in its own file (model/character.h)
 
-/// The character with only the coordinates that the rig uses.
-struct moving {
-    struct character character;
-    struct coordinate coordinates[]; ///< their shapes belong to the figure
-};
-
 static bool character_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                            struct error *error)
 {
@@ -134,11 +128,6 @@ static bool character_open(const struct posing *posing, int rig, const struct ri
     const struct model_rig *model = &posing->document->rigs[rig]->model;
     const size_t most = (size_t)c->coordinate_count * COORDINATE_PARTS;
     (void)error;
-    struct moving *moving =
-        pool_take(&form->pool, sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates, 1);
-    moving->character = *c;
-    moving->character.coordinates = moving->coordinates;
-    moving->character.coordinate_count = 0;
     form->shape = (struct gltf_shape){.vertex_count = c->vertex_count,
                                       .position = (const float(*)[3])c->position,
                                       .normal = (const float(*)[3])c->normal,
@@ -148,14 +137,14 @@ static bool character_open(const struct posing *posing, int rig, const struct ri
                                       .index_count = c->index_count,
                                       .looks = &c->looks,
                                       .targets = pool_take(&form->pool, most, sizeof *form->shape.targets),
-                                      .character = &moving->character};
+                                      .coordinates = pool_take(&form->pool, most, sizeof *form->shape.coordinates)};
     form->targets = pool_take(&form->pool, most, sizeof *form->targets);
     for (int k = 0; k < c->coordinate_count; k++) {
         const struct coordinate *coordinate = &c->coordinates[k];
         bool moves = false;
         for (int d = 0; d < model->drive_count; d++) moves |= figure_find(form->figure, model->drives[d].name) == k;
         if (!moves) continue;
-        moving->coordinates[moving->character.coordinate_count++] = *coordinate;
+        form->shape.coordinates[form->shape.coordinate_count++] = coordinate;
         for (int part = 0; part < coordinate_parts(coordinate); part++) {
             const int t = form->shape.target_count++;
             form->shape.targets[t] = figure_target_create(form->figure, k, part, &form->pool);

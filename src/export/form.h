@@ -21,6 +21,7 @@ struct sidecars {
         bool is_new; ///< replaces no file
     } * files;
     int count;
+    struct pool paths;
     char folder[PATH_LIMIT];
     bool is_new; ///< the folder is new
 };

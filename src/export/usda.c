@@ -9,7 +9,6 @@
 #include "model/vector.h"
 #include <ctype.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -340,22 +339,22 @@ static void write_skeleton(struct usda_model *model, int skeleton)
 
 enum usda_samples { TRANSLATIONS, ROTATIONS, SCALES, WEIGHTS };
 
+static const float *numbers_of(const struct gltf_place *place, enum usda_samples samples)
+{
+    return samples == TRANSLATIONS ? place->translation : samples == ROTATIONS ? place->rotation : place->scale;
+}
+
 /// A key for all joints that move, or for the weights; of places that never change one.
 static void write_samples(const struct usda_model *model, const char *declaration, enum usda_samples samples)
 {
-    static const struct {
-        size_t at, size;
-    } members[] = {[TRANSLATIONS] = {offsetof(struct gltf_place, translation), 3 * sizeof(float)},
-                   [ROTATIONS] = {offsetof(struct gltf_place, rotation), 4 * sizeof(float)},
-                   [SCALES] = {offsetof(struct gltf_place, scale), 3 * sizeof(float)}};
     static const float one[3] = {1, 1, 1};
+    const size_t size = (samples == ROTATIONS ? 4 : 3) * sizeof *one;
     const int weights = model->gltf->weight_count, nodes = model->gltf->node_count, keys = model->range->key_count;
     bool changes = samples == WEIGHTS;
     for (int k = 1; k < keys && !changes; k++) {
-        for (int n = 0; n < nodes && !changes; n++) {
-            const char *first = (const char *)place_at(model, 0, n), *now = (const char *)place_at(model, k, n);
-            changes = memcmp(first + members[samples].at, now + members[samples].at, members[samples].size) != 0;
-        }
+        for (int n = 0; n < nodes && !changes; n++)
+            changes = memcmp(numbers_of(place_at(model, 0, n), samples), numbers_of(place_at(model, k, n), samples),
+                             size) != 0;
     }
     fprintf(model->out, "            %s.timeSamples = {\n", declaration);
     for (int k = 0; k < (changes ? keys : 1); k++) {
@@ -363,18 +362,13 @@ static void write_samples(const struct usda_model *model, const char *declaratio
         fprintf(model->out, "                %.9g: ", range_frame(model->range, k));
         for (int j = 0; samples != WEIGHTS && j < model->joint_count; j++) {
             const struct usda_joint *joint = &model->joints[j];
-            const struct gltf_place *place = place_at(model, k, joint->node);
-            const float *q = place->rotation;
+            const float *v = numbers_of(place_at(model, k, joint->node), samples);
             if (!joint->moves) continue;
-            if (samples == ROTATIONS) {
-                fprintf(model->out, "%s(%.9g, %.9g, %.9g, %.9g)", before, (double)q[3], (double)q[0], (double)q[1],
-                        (double)q[2]);
-            } else {
-                usda_vector(model->out, before,
-                            samples == TRANSLATIONS         ? place->translation
-                            : joint->part == JOINT_UNSCALED ? one
-                                                            : place->scale);
-            }
+            if (samples == ROTATIONS)
+                fprintf(model->out, "%s(%.9g, %.9g, %.9g, %.9g)", before, (double)v[3], (double)v[0], (double)v[1],
+                        (double)v[2]);
+            else
+                usda_vector(model->out, before, samples == SCALES && joint->part == JOINT_UNSCALED ? one : v);
             before = ", ";
         }
         for (int i = 0; samples == WEIGHTS && i < weights; i++)

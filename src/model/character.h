@@ -67,8 +67,7 @@ struct character {
     float (*color)[3]; ///< linear RGB, 1 where the file has none
     uint32_t *indices;
     int index_count;
-    struct looks
-        looks; ///< materials, texture coordinates; of a file with several materials, which triangles have which
+    struct looks looks; ///< materials of the triangles, texture coordinates
     struct coordinate *coordinates;
     int coordinate_count;
     int node;        ///< the first that shows its mesh in its file; −1: none

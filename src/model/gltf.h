@@ -21,16 +21,15 @@ struct gltf_place {
 };
 
 struct gltf_node {
-    char *name; ///< "node 7" where the file has none; no two are alike
-    int parent; ///< −1: a root
-    int child,
-        next; ///< the first node below it, and the next one below its parent, by number; −1: none, and next to a root
+    char *name;              ///< "node 7" where the file has none; no two are alike
+    int parent;              ///< −1: a root
+    int child;               ///< the first node below it; −1: none
+    int next;                ///< the next node below its parent; −1: none, and of a root
     struct gltf_place place; ///< at rest
-    float matrix
-        [16]; ///< replaces `place` if `has_matrix`: it is sheared or flat; clips and chains do not move the node
-    bool has_matrix;
-    int mesh, skin;   ///< −1: none
-    int first_weight; ///< of its mesh's morph targets, in gltf_pose.weights
+    float matrix[16];        ///< replaces `place` if `has_matrix`
+    bool has_matrix;         ///< it is sheared or flat; clips and chains do not move the node
+    int mesh, skin;          ///< −1: none
+    int first_weight;        ///< of its mesh's morph targets, in gltf_pose.weights
 };
 
 struct gltf_skin {
@@ -98,8 +97,7 @@ struct gltf_part {
     int material;                ///< −1: plain white
     int primitive;               ///< its number in the mesh of the file
     bool has_polygons;           ///< GLTF_POLYGONS
-    bool
-        shared; ///< its vertices are those of the mesh's first part, at the same addresses; so is `uv`, unless materials differ in that
+    bool shared; ///< it has the vertices of the mesh's first part; and `uv`, unless materials differ in that
 };
 
 /// Its vertices that are not those of the mesh's first part.
@@ -145,8 +143,7 @@ struct gltf_clip {
     char *name;         ///< "clip 2" where the file has none; no two are alike
     double first, last; ///< seconds, of its first and last key
     bool loops;         ///< it ends as it begins, but for where it has travelled
-    double
-        gap; ///< seconds from the last key to the first again, if it loops; 0 where the last key is a copy of the first
+    double gap;         ///< if it loops: seconds from the last key to the first again; 0: both are the same
     struct gltf_channel *channels;
     int channel_count;
 };

@@ -314,9 +314,11 @@ bool character_write(const char *path, const struct character *character, bool t
                                .indices = indices,
                                .index_count = character->index_count,
                                .looks = &character->looks,
-                               .character = character};
+                               .coordinates =
+                                   pool_take(&pool, (size_t)character->coordinate_count, sizeof *shape.coordinates)};
     shape.targets = pool_take(&pool, COORDINATE_PARTS * (size_t)character->coordinate_count, sizeof *shape.targets);
     for (int k = 0; k < character->coordinate_count; k++) {
+        shape.coordinates[shape.coordinate_count++] = &character->coordinates[k];
         for (int p = 0; p < coordinate_parts(&character->coordinates[k]); p++)
             shape.targets[shape.target_count++] = figure_target_create(&figure, k, p, &pool);
     }

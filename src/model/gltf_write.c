@@ -626,8 +626,8 @@ json_t *gltf_shape_json(struct gltf_file *file, const struct gltf_shape *shape)
         0) { // the extras that character_read() reads: names of targets and properties of coordinates
         json_t *names = json_array(), *coordinates = json_array();
         for (int t = 0; t < shape->target_count; t++) gltf_append(file, names, json_string(shape->targets[t].name));
-        for (int i = 0, first = 0; shape->character && i < shape->character->coordinate_count; i++) {
-            const struct coordinate *c = &shape->character->coordinates[i];
+        for (int i = 0, first = 0; i < shape->coordinate_count; i++) {
+            const struct coordinate *c = shape->coordinates[i];
             gltf_append(file, coordinates, gltf_coordinate_json(file, c, (double)shape->targets[first].scale));
             first += coordinate_parts(c);
         }

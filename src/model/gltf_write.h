@@ -146,7 +146,8 @@ struct gltf_shape {
     const struct looks *looks;     ///< of these; NULL: they have no materials, and are no polygons
     struct figure_target *targets; ///< of a character the parts of its coordinates, then any others
     int target_count;
-    const struct character *character; ///< its coordinates go into the extras; NULL: none
+    const struct coordinate **coordinates; ///< go into the extras
+    int coordinate_count;
 };
 
 /// The JSON of a mesh, with a primitive for each material that triangles have, and one for those without, which share the vertices. Adds the

@@ -24,8 +24,7 @@ struct looks_material {
 struct looks {
     float (*uv)[2]; ///< texture coordinates, (0, 0) the upper left of the picture
     int uv_count;
-    uint32_t
-        *corner; ///< per index: which texture coordinates, or LOOKS_NONE; NULL: each vertex has those of its number
+    uint32_t *corner;   ///< per index: which texture coordinates, or LOOKS_NONE; NULL: those of the vertex's number
     uint32_t *material; ///< per triangle: its material, or LOOKS_NONE
     uint8_t *joined;    ///< per triangle: 1 if it continues the polygon (a fan) of the triangle before
     struct looks_material *materials;
