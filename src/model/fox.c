@@ -92,7 +92,7 @@ void fox_create(int level, int joints, struct gltf *fox)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, read_asset);
-    *fox = (struct gltf){.path = asset.path, .id = gltf_new_id(), .weight_count = 1};
+    *fox = (struct gltf){.path = asset.path, .id = gltf_new_id(), .weight_count = 1, .room = SIZE_MAX};
     struct pool *pool = &fox->pool;
     fox->weights = pool_take(pool, 1, sizeof *fox->weights);
     fox->material_count = asset.material_count;

@@ -247,14 +247,12 @@ int gltf_vertex_count(const struct gltf *gltf, int node);
 
 // --- the box around a posed character, from boxes of the vertices that follow each joint, without posing vertices
 
-enum gltf_reach { GLTF_AT_REST, GLTF_ONE_TARGET, GLTF_ALL_TARGETS, GLTF_REACHES };
-
 /// The vertices that follow a joint of a mesh's skin, or a whole mesh without skin.
 struct gltf_box {
-    int node;  ///< that shows the mesh
-    int joint; ///< of its skin, −1: none
-    /// Of these vertices in the mesh's own space: without morphs, with any one of them at 1, with all between −1 and 1.
-    float lo[GLTF_REACHES][3], hi[GLTF_REACHES][3];
+    int node;            ///< that shows the mesh
+    int joint;           ///< of its skin, −1: none
+    float lo[3], hi[3];  ///< of these vertices in the mesh's own space, without morphs
+    float (*ways)[2][3]; ///< of each morph target: the least and the most that it moves them
 };
 
 struct gltf_bounds {
@@ -265,7 +263,7 @@ struct gltf_bounds {
 /// False if memory is short. The memory is the character's.
 bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds);
 
-/// The box of all nodes but one (−1: all) in the model's space; it may be a little too large, never too small for morph weights from −1 to 1.
+/// The box of all nodes but one (−1: all) in the model's space; it may be a little too large, never too small.
 /// Without any it is upside down. Allocates nothing.
 void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose, int but,
                     float lo[3], float hi[3]);

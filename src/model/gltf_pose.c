@@ -255,21 +255,15 @@ void gltf_pose_loop(const struct gltf *gltf, int clip, double time, struct gltf_
 
 // --- a bounding box for each joint
 
-/// Adds a vertex with the range of its morph targets.
 static void add_vertex(struct gltf_box *box, const struct gltf_mesh *mesh, const struct gltf_part *part, int v)
 {
-    for (int k = 0; k < 3; k++) {
-        float sum = 0.0f, least = 0.0f, most = 0.0f;
-        for (int t = 0; t < mesh->target_count; t++) {
-            const float way = part->targets[t].position ? part->targets[t].position[v][k] : 0.0f;
-            sum += fabsf(way);
-            least = fminf(least, way);
-            most = fmaxf(most, way);
-        }
-        const float at = part->position[v][k], down[] = {0.0f, least, -sum}, up[] = {0.0f, most, sum};
-        for (int r = 0; r < GLTF_REACHES; r++) {
-            box->lo[r][k] = fminf(box->lo[r][k], at + down[r]);
-            box->hi[r][k] = fmaxf(box->hi[r][k], at + up[r]);
+    glm_vec3_minv(part->position[v], box->lo, box->lo);
+    glm_vec3_maxv(part->position[v], box->hi, box->hi);
+    for (int t = 0; t < mesh->target_count; t++) {
+        const float(*position)[3] = (const float(*)[3])part->targets[t].position;
+        for (int k = 0; position && k < 3; k++) {
+            box->ways[t][0][k] = fminf(box->ways[t][0][k], position[v][k]);
+            box->ways[t][1][k] = fmaxf(box->ways[t][1][k], position[v][k]);
         }
     }
 }
@@ -290,14 +284,17 @@ bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds)
         const struct gltf_node *node = &gltf->nodes[n];
         const int count = box_count(gltf, node);
         struct gltf_box *first = bounds->boxes + bounds->count;
-        for (int f = 0; f < count; f++) {
-            first[f] = (struct gltf_box){.node = n, .joint = node->skin < 0 ? -1 : f};
-            for (int i = 0; i < 3 * GLTF_REACHES; i++) {
-                first[f].lo[i / 3][i % 3] = INFINITY;
-                first[f].hi[i / 3][i % 3] = -INFINITY;
-            }
-        }
         const struct gltf_mesh *mesh = count > 0 ? &gltf->meshes[node->mesh] : NULL;
+        const size_t targets = mesh ? (size_t)mesh->target_count : 0, ways = (size_t)count * targets;
+        if (ways > gltf->room / sizeof *first->ways) return false;
+        float(*way)[2][3] = pool_try(&gltf->pool, ways, sizeof *way);
+        if (!way) return false;
+        for (int f = 0; f < count; f++) {
+            first[f] =
+                (struct gltf_box){.node = n, .joint = node->skin < 0 ? -1 : f, .ways = way + (size_t)f * targets};
+            glm_vec3_fill(first[f].lo, INFINITY);
+            glm_vec3_fill(first[f].hi, -INFINITY);
+        }
         for (int p = 0; mesh && p < mesh->part_count; p++) {
             const struct gltf_part *part = &mesh->parts[p];
             const bool skinned = node->skin >= 0 && part->joints;
@@ -308,7 +305,7 @@ bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds)
             }
         }
         for (int f = 0; f < count; f++) { // most joints of a large skin move a small part of one mesh, or nothing
-            if (first[f].lo[0][0] <= first[f].hi[0][0]) bounds->boxes[bounds->count++] = first[f];
+            if (first[f].lo[0] <= first[f].hi[0]) bounds->boxes[bounds->count++] = first[f];
         }
     }
     return true;
@@ -326,23 +323,14 @@ void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, c
         const float *m =
             box->joint < 0 ? pose->world[box->node] : pose->joints[gltf->skins[node->skin].first_joint + box->joint];
 
-        // The box at the pose's morph weights: part of the way from the one at rest to a larger one. Weights that are positive and together at
-        // most 1 mix places that single targets reach.
-        float sum = 0.0f, largest = 0.0f;
-        bool mixes = true;
-        for (int t = 0; t < gltf->meshes[node->mesh].target_count; t++) {
-            const float weight = pose->weights[node->first_weight + t];
-            sum += weight;
-            largest = fmaxf(largest, fabsf(weight));
-            mixes &= weight >= 0.0f;
-        }
-        mixes &= sum < 1.001f;
-        const float share = fminf(mixes ? sum : largest, 1.0f);
-        const enum gltf_reach larger = mixes ? GLTF_ONE_TARGET : GLTF_ALL_TARGETS;
         vec3 reached[2];
-        for (int k = 0; k < 3; k++) {
-            reached[0][k] = box->lo[GLTF_AT_REST][k] + share * (box->lo[larger][k] - box->lo[GLTF_AT_REST][k]);
-            reached[1][k] = box->hi[GLTF_AT_REST][k] + share * (box->hi[larger][k] - box->hi[GLTF_AT_REST][k]);
+        memcpy(reached[0], box->lo, sizeof reached[0]);
+        memcpy(reached[1], box->hi, sizeof reached[1]);
+        for (int i = 0; i < 3 * gltf->meshes[node->mesh].target_count; i++) {
+            const float weight = pose->weights[node->first_weight + i / 3];
+            const float one = weight * box->ways[i / 3][0][i % 3], other = weight * box->ways[i / 3][1][i % 3];
+            reached[0][i % 3] += fminf(one, other);
+            reached[1][i % 3] += fmaxf(one, other);
         }
         mat4s placed = mat4_from(m);
         glm_aabb_transform(reached, placed.raw, reached);
