@@ -450,8 +450,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     *form = (struct form){.kind = form_kind(range->posing, rig)};
     if (range->format->holds == FORM_JOINTS && source->kind == RIG_MODEL) form->kind = &skeleton_form;
     if (!range_pose(range, rig, 0, &pose, error)) return false;
-    struct names names = {.between =
-                              "_"}; // other programs identify objects by name, so rigs of the same name get a number
+    struct names names = {.between = "_"}; // rigs of the same name get a number, because other programs go by names
     for (int i = 0; i < rig; i++) names_add(&names, form_name(document->rigs[i]));
     form->name = pool_text(&form->pool, names_add(&names, form_name(source)), "", "");
     names_free(&names);

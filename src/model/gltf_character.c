@@ -281,7 +281,6 @@ bool character_write(const char *path, const struct character *character, bool t
     for (int v = 0; v < character->vertex_count; v++) {
         source[v] = (uint32_t)v;
         uv_of[v] = LOOKS_NONE;
-        next[v] = 0;
     }
     for (int i = 0; i < character->index_count; i++) {
         const uint32_t vertex = character->indices[i], uv = own->corner ? own->corner[i] : LOOKS_NONE;
@@ -294,7 +293,6 @@ bool character_write(const char *path, const struct character *character, bool t
                 at = (uint32_t)count++;
                 source[at] = vertex;
                 uv_of[at] = uv;
-                next[at] = 0;
             }
         }
         indices[i] = at;

@@ -54,8 +54,7 @@ static bool jpeg_is_sound(const unsigned char *at, const unsigned char *end)
         if (length < 2 || length > end - at) return marker != HUFFMAN_TABLES;
         const unsigned char *table = at + 2;
         at += length;
-        while (marker == HUFFMAN_TABLES &&
-               table < at) { // an identifying byte, the number of codes of each length, the codes
+        while (marker == HUFFMAN_TABLES && table < at) { // a byte, the number of codes of each length, the codes
             int codes = 0;
             if (at - table < 1 + LENGTHS) return false;
             for (int i = 1; i <= LENGTHS; i++) codes += table[i];
@@ -87,8 +86,6 @@ static bool png_is_sound(const unsigned char *at, const unsigned char *end)
 
 enum { PIXELS_A_BYTE = 8256 }; // the most that deflate packs into a byte, at one bit per pixel
 
-static bool fail_starved(struct error *error) { return fail(error, ERROR_ENVIRONMENT, "not enough memory"); }
-
 bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
                        struct error *error)
 {
@@ -100,7 +97,7 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
         return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is too large, or empty");
     starved = false;
     if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))
-        return starved ? fail_starved(error)
+        return starved ? fail(error, ERROR_ENVIRONMENT, "not enough memory")
                        : fail(error, ERROR_INPUT, "expected PNG or JPEG of at most %d pixels a side: %s",
                               STBI_MAX_DIMENSIONS, stbi_failure_reason());
     size_t pixels = (size_t)image->width * (size_t)image->height;
@@ -108,5 +105,6 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
         return fail(error, ERROR_INPUT, "too large with %d by %d", image->width, image->height);
     image->pixels = stbi_load_from_memory(bytes, length, &image->width, &image->height, &channels, 4);
     if (image->pixels) return true;
-    return starved ? fail_starved(error) : fail(error, ERROR_INPUT, "%s", stbi_failure_reason());
+    return starved ? fail(error, ERROR_ENVIRONMENT, "not enough memory")
+                   : fail(error, ERROR_INPUT, "%s", stbi_failure_reason());
 }

@@ -622,8 +622,7 @@ json_t *gltf_shape_json(struct gltf_file *file, const struct gltf_shape *shape)
     json_t *mesh =
         json_pack("{s:s, s:o}", "name", shape->name, "primitives", make_primitives(file, shape, attributes, targets));
     for (int t = 0; t < shape->target_count; t++) gltf_append_to(file, mesh, "weights", json_integer(0));
-    if (shape->target_count >
-        0) { // the extras that character_read() reads: names of targets and properties of coordinates
+    if (shape->target_count > 0) { // the extras that character_read() reads
         json_t *names = json_array(), *coordinates = json_array();
         for (int t = 0; t < shape->target_count; t++) gltf_append(file, names, json_string(shape->targets[t].name));
         for (int i = 0, first = 0; i < shape->coordinate_count; i++) {
