@@ -384,7 +384,7 @@ void form_vertices(const struct form *form, const struct rig_pose *pose, bool as
         holder = n;
         most = gltf_vertex_count(gltf, n) > most ? gltf_vertex_count(gltf, n) : most;
     }
-    float(*const posed)[3] = need((size_t)most, sizeof *posed);
+    float(*posed)[3] = need((size_t)most, sizeof *posed);
     for (int n = 0; n < gltf->node_count; n++) {
         if (!shows(form, n)) continue;
         const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[n].mesh];

@@ -7,7 +7,6 @@
 #include "base/names.h"
 #include "base/need.h"
 #include "export/export.h"
-#include "model/gltf_write.h"
 
 enum { FORM_INFLUENCES = 4, FORMAT_SUMMARY = 96 };
 

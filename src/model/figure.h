@@ -62,6 +62,24 @@ struct figure_target {
 /// memory is the pool's.
 struct figure_target figure_target_create(const struct figure *figure, int coordinate, int part, struct pool *pool);
 
+/// A mesh to be written to a glTF file. Vertices of the file may be several copies of one here; the arrays but `uv` and `indices` are by vertex here.
+struct gltf_shape {
+    const char *name;
+    int vertex_count;       ///< of the file
+    const uint32_t *source; ///< which vertex each of the file is; NULL: the same
+    const float (*position)[3], (*normal)[3], (*color)[3];
+    const float (*uv)[2];          ///< NULL: none
+    const uint16_t (*joints)[4];   ///< NULL: it has no skin
+    const float (*weights)[4];     ///< as `joints`
+    const uint32_t *indices;       ///< vertices of the file
+    int index_count;               ///< three a triangle
+    const struct looks *looks;     ///< of these; NULL: they have no materials, and are no polygons
+    struct figure_target *targets; ///< of a character the parts of its coordinates, then any others
+    int target_count;
+    const struct coordinate **coordinates; ///< go into the extras
+    int coordinate_count;
+};
+
 /// Leaves an empty figure.
 void figure_free(struct figure *figure);
 

@@ -132,24 +132,6 @@ void gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mes
 //
 // Polygons are kept as GLTF_POLYGONS has them: of two in a row each begins with another vertex.
 
-/// A mesh. Vertices of the file may be several copies of one here; the arrays but `uv` and `indices` are by vertex here.
-struct gltf_shape {
-    const char *name;
-    int vertex_count;       ///< of the file
-    const uint32_t *source; ///< which vertex each of the file is; NULL: the same
-    const float (*position)[3], (*normal)[3], (*color)[3];
-    const float (*uv)[2];          ///< NULL: none
-    const uint16_t (*joints)[4];   ///< NULL: it has no skin
-    const float (*weights)[4];     ///< as `joints`
-    const uint32_t *indices;       ///< vertices of the file
-    int index_count;               ///< three a triangle
-    const struct looks *looks;     ///< of these; NULL: they have no materials, and are no polygons
-    struct figure_target *targets; ///< of a character the parts of its coordinates, then any others
-    int target_count;
-    const struct coordinate **coordinates; ///< go into the extras
-    int coordinate_count;
-};
-
 /// The JSON of a mesh, with a primitive for each material that triangles have, and one for those without, which share the vertices. Adds the
 /// materials and their pictures to the file.
 json_t *gltf_shape_json(struct gltf_file *file, const struct gltf_shape *shape);

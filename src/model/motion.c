@@ -225,7 +225,10 @@ void motion_print_start(FILE *out, enum motion_form form, const struct motion_sp
     } else {
         print_swapped(out, &span->frames);
         print_swapped(out, &span->vertices);
-        for (int i = 0; i < span->frames; i++) print_swapped(out, &(float){(float)(span->first + i * span->spacing)});
+        for (int i = 0; i < span->frames; i++) {
+            const float time = (float)(span->first + i * span->spacing);
+            print_swapped(out, &time);
+        }
     }
 }
 

@@ -881,7 +881,7 @@ static bool off_read(struct words *w, struct surface_builder *b)
     // x y z [nx ny nz] [r g b a] [s t]; colours are 0 … 1, or 0 … 255.
     const int color = normals ? 6 : 3, uv = color + (colors ? 4 : 0), count = uv + (uvs ? 2 : 0);
     for (long i = 0; i < vertices && !b->failed; i++) {
-        double numbers[NUMBERS_MAX], *rgb = numbers + color;
+        double numbers[NUMBERS_MAX] = {0}, *rgb = numbers + color;
         for (int k = 0; k < count; k++) {
             if (!words_number(w, "a coordinate of a vertex", &numbers[k])) return false;
         }
