@@ -347,8 +347,7 @@ static void push_between(struct gltf_channel *to, const struct gltf_channel *fro
 }
 
 /// Lets a sampler have the part's keys. One whose numbers cannot be read stays as it is.
-static void cut_sampler(struct gltf_file *file, const struct glb *source, json_t *sampler, bool is_rotation,
-                        const struct part *part)
+static void cut_sampler(struct gltf_file *file, json_t *sampler, bool is_rotation, const struct part *part)
 {
     static const enum gltf_elements kinds[17] = {[1] = ELEMENTS_KEYS,
                                                  [2] = ELEMENTS_UVS,
@@ -359,8 +358,8 @@ static void cut_sampler(struct gltf_file *file, const struct glb *source, json_t
     struct pool pool = {0};
     struct glb_numbers times = {0}, values = {0};
     struct error error = {0};
-    const bool is_read = gltf_file_numbers(file, source, glb_integer(sampler, "input", -1), &pool, &times, &error) &&
-                         gltf_file_numbers(file, source, glb_integer(sampler, "output", -1), &pool, &values, &error);
+    const bool is_read = gltf_file_numbers(file, glb_integer(sampler, "input", -1), &pool, &times, &error) &&
+                         gltf_file_numbers(file, glb_integer(sampler, "output", -1), &pool, &values, &error);
     file->without_memory |= error.kind == ERROR_ENVIRONMENT;
     struct gltf_channel unrolled, result,
         own = {.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION,
@@ -500,11 +499,10 @@ static bool collect_clip_keys(struct export_range *range, struct form *form, con
     return done;
 }
 
-/// Puts the keys of the chains into the clip that the rig plays, or into a copy of it. `file` continues the source.
-static bool put_clip(struct export_range *range, struct form *form, struct gltf_file *file, struct glb *source,
-                     struct error *error)
+/// Puts the keys of the chains into the clip that the rig plays, or into a copy of it.
+static bool put_clip(struct export_range *range, struct form *form, struct gltf_file *file, struct error *error)
 {
-    json_t *root = source->json;
+    json_t *root = file->root;
     const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]]->model;
     const char *wanted = range->options->clip ? range->options->clip : model->clip ? model->clip : range->title;
     const struct gltf_clip *playing = form->clip;
@@ -561,7 +559,7 @@ static bool put_clip(struct export_range *range, struct form *form, struct gltf_
             const bool is_known = find_target(channel, &node, &path);
             if (s >= samplers || done[s] || (is_known && is_moved(form, node, path))) continue;
             done[s] = true;
-            cut_sampler(file, source, json_array_get(motion.samplers, s), is_known && path == GLTF_ROTATION, &part);
+            cut_sampler(file, json_array_get(motion.samplers, s), is_known && path == GLTF_ROTATION, &part);
         }
         free(done);
     }
@@ -624,8 +622,7 @@ static bool check_place(const struct export_range *range, const struct glb *sour
 // --- the clips
 
 /// Adds what the chains make of another clip of the file.
-static bool put_other(struct export_range *range, int clip, struct gltf_file *file, struct glb *source,
-                      struct error *error)
+static bool put_other(struct export_range *range, int clip, struct gltf_file *file, struct error *error)
 {
     const struct posing *first = range->posing;
     const int rig = range->rigs[0];
@@ -642,7 +639,7 @@ static bool put_other(struct export_range *range, int clip, struct gltf_file *fi
     range->posing = &posing;
     bool done = range_choose_keys(range, &report, error) && form_open(range, rig, &form, error);
     if (done) {
-        done = put_clip(range, &form, file, source, error);
+        done = put_clip(range, &form, file, error);
         form_close(&form);
     }
     evaluation_free(&evaluation);
@@ -655,11 +652,10 @@ static bool put_other(struct export_range *range, int clip, struct gltf_file *fi
 
 /// Gives the soft mesh targets by which weights stay within 0 … 1, and those of paint, and all clips their weights.
 static bool put_targets(const struct export_range *range, struct form *form, struct gltf_file *file,
-                        struct glb *source, struct error *error)
+                        struct error *error)
 {
     const bool is_painted = figure_is_painted(form->figure);
     struct gltf_retargeting r = {.file = file,
-                                 .source = source,
                                  .pool = &form->pool,
                                  .mesh = form->gltf->nodes[form->soft].mesh,
                                  .before = form->shape.target_count,
@@ -671,7 +667,7 @@ static bool put_targets(const struct export_range *range, struct form *form, str
         r.list[t].is_new = is_painted && form->targets[r.list[t].source].group >= 0;
     }
     if (done && changes) {
-        json_t *json = json_array_get(json_object_get(source->json, "meshes"), (size_t)r.mesh), *entry;
+        json_t *json = json_array_get(json_object_get(file->root, "meshes"), (size_t)r.mesh), *entry;
         json_t *known = json_object_get(json_object_get(json, "extras"), "wiggly");
         size_t i;
         json_array_foreach(json_object_get(known, "coordinates"), i, entry)
@@ -692,8 +688,8 @@ static bool put_targets(const struct export_range *range, struct form *form, str
 static bool write_model(struct export_range *range, FILE *out, struct error *error)
 {
     struct glb source;
-    struct gltf_file to = {0}; // the file's JSON, and the bytes of the buffer that new ones go into
-    int clips = 0;             // that were put into it
+    struct gltf_file to = {.source = &source}; // the file's JSON, and the bytes of the buffer that new ones go into
+    int clips = 0;                             // that were put into it
     struct form form;
     struct rig_pose pose;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
@@ -718,7 +714,7 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
         const bool has_chunk = source.chunk.at && first && !json_object_get(first, "uri");
         done = glb_read_buffers(&source, error);
         if (done && (!is_same || (binary && !has_chunk))) {
-            done = gltf_file_gather(&to, &source, error);
+            done = gltf_file_gather(&to, error);
         } else if (done) {
             to.root = json_incref(source.json);
             if (has_chunk) gltf_file_append(&to, source.chunk.at, source.chunk.size);
@@ -726,17 +722,17 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
             done = check_place(range, &source, error);
         }
         if (done && has_clip) {
-            done = put_clip(range, &form, &to, &source, error);
+            done = put_clip(range, &form, &to, error);
             clips = 1;
         }
         for (int c = 0; done && has_clip && range->options->all_clips && c < form.gltf->clip_count; c++) {
             const struct gltf_clip *clip = &form.gltf->clips[c]; // chains do not move in clips of a single pose
             if (clip == form.clip || !(clip->last > clip->first)) continue;
-            done = put_other(range, c, &to, &source, error);
+            done = put_other(range, c, &to, error);
             clips++;
         }
 
-        if (done && form.soft >= 0) done = put_targets(range, &form, &to, &source, error);
+        if (done && form.soft >= 0) done = put_targets(range, &form, &to, error);
 
         // All scenes' nodes go under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
         // validators warn of one that has a parent.

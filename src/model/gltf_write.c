@@ -193,8 +193,9 @@ static bool move_view(json_t *view, const size_t *starts, size_t count)
             json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer])) == 0);
 }
 
-bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *error)
+bool gltf_file_gather(struct gltf_file *file, struct error *error)
 {
+    struct glb *const source = file->source;
     json_t *view, *extension, *image;
     size_t i;
     file->root = json_incref(source->json);
@@ -373,9 +374,10 @@ json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *c,
 
 // --- the morph targets of a mesh that the file has
 
-bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, int64_t accessor, struct pool *pool,
-                       struct glb_numbers *numbers, struct error *error)
+bool gltf_file_numbers(const struct gltf_file *file, int64_t accessor, struct pool *pool, struct glb_numbers *numbers,
+                       struct error *error)
 {
+    const struct glb *source = file->source;
     struct glb now = *source;
     if (now.buffer_count <= file->buffer) now.buffer_count = (int)file->buffer + 1;
     now.buffers = need_zeroed((size_t)now.buffer_count, sizeof *now.buffers);
@@ -389,7 +391,7 @@ bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, i
 
 bool gltf_find_weights(struct gltf_retargeting *r, struct error *error)
 {
-    const json_t *root = r->source->json, *nodes = json_object_get(root, "nodes"), *clip, *channel;
+    const json_t *root = r->file->root, *nodes = json_object_get(root, "nodes"), *clip, *channel;
     size_t c, i;
     json_array_foreach(json_object_get(root, "animations"), c, clip)
     {
@@ -405,7 +407,7 @@ bool gltf_find_weights(struct gltf_retargeting *r, struct error *error)
                          glb_integer(node, "mesh", -1) != r->mesh;
             for (int n = 0; n < r->clip_count; n++) known |= r->clips[n].sampler == sampler;
             if (known) continue;
-            if (!gltf_file_numbers(r->file, r->source, glb_integer(sampler, "output", -1), r->pool, &numbers, error))
+            if (!gltf_file_numbers(r->file, glb_integer(sampler, "output", -1), r->pool, &numbers, error))
                 return false;
             const char *how = json_string_value(json_object_get(sampler, "interpolation"));
             r->clips = need_more(r->clips, (size_t)r->clip_count + 1, sizeof *r->clips);
@@ -465,9 +467,8 @@ static json_t *make_target(const struct gltf_retargeting *r, const struct gltf_r
     {
         struct glb_numbers numbers;
         struct error error = {0};
-        const bool is_read =
-            json_is_integer(accessor) &&
-            gltf_file_numbers(r->file, r->source, json_integer_value(accessor), r->pool, &numbers, &error);
+        const bool is_read = json_is_integer(accessor) &&
+                             gltf_file_numbers(r->file, json_integer_value(accessor), r->pool, &numbers, &error);
         r->file->without_memory |= error.kind == ERROR_ENVIRONMENT;
         if (is_read && numbers.components == 3)
             add_offsets(r, own, name, numbers.values, (size_t)numbers.count, wanted->scale);
@@ -488,7 +489,7 @@ static void put_weights(const struct gltf_retargeting *r, json_t *object)
 void gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mesh)
 {
     struct gltf_file *file = r->file;
-    json_t *json = json_array_get(json_object_get(r->source->json, "meshes"), (size_t)r->mesh);
+    json_t *json = json_array_get(json_object_get(r->file->root, "meshes"), (size_t)r->mesh);
     json_t *primitive, *first = NULL, *node, *names = json_array();
     size_t p;
     int shown = 0;
@@ -515,7 +516,7 @@ void gltf_retarget(const struct gltf_retargeting *r, const struct gltf_mesh *mes
     for (int t = 0; t < r->count; t++) gltf_append(file, names, json_string(r->list[t].name));
     gltf_set(file, extras, "targetNames", names);
     put_weights(r, json);
-    json_array_foreach(json_object_get(r->source->json, "nodes"), p, node)
+    json_array_foreach(json_object_get(r->file->root, "nodes"), p, node)
     {
         if (glb_integer(node, "mesh", -1) == r->mesh && json_object_get(node, "weights")) put_weights(r, node);
     }
@@ -532,10 +533,9 @@ bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, cons
 {
     struct gltf_mesh wide = gltf->meshes[mesh];
     struct pool pool = {0};
-    struct gltf_file file = {0};
     struct glb source;
-    struct gltf_retargeting r = {
-        .file = &file, .source = &source, .pool = &pool, .mesh = mesh, .before = wide.target_count};
+    struct gltf_file file = {.source = &source};
+    struct gltf_retargeting r = {.file = &file, .pool = &pool, .mesh = mesh, .before = wide.target_count};
     if (!glb_open(&source, gltf->path, error)) return false;
     r.count = r.before + 2 * count;
     r.list = pool_take(&pool, (size_t)r.count, sizeof *r.list);
@@ -553,12 +553,11 @@ bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, cons
         for (int n = 0; n < 2 * count; n++)
             wide.parts[p].targets[r.before + n].position = coordinates[n / 2].parts[n % 2] + row;
     }
-    bool done =
-        glb_read_buffers(&source, error) && gltf_file_gather(&file, &source, error) && gltf_find_weights(&r, error);
+    bool done = glb_read_buffers(&source, error) && gltf_file_gather(&file, error) && gltf_find_weights(&r, error);
     if (done) {
         gltf_retarget(&r, &wide);
         json_t *extras =
-            json_object_get(json_array_get(json_object_get(source.json, "meshes"), (size_t)mesh), "extras");
+            json_object_get(json_array_get(json_object_get(file.root, "meshes"), (size_t)mesh), "extras");
         json_t *known = json_object_get(extras, "wiggly");
         if (!json_is_object(known)) gltf_set(&file, extras, "wiggly", known = json_object());
         for (int k = 0; k < count; k++)

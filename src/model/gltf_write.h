@@ -19,10 +19,11 @@ enum {
     GLB_BIN = 0x004E4942,
 };
 
-/// All zero but its JSON at first; without_memory stays set.
+/// All zero but its JSON, or what it continues, at first; without_memory stays set.
 struct gltf_file {
-    json_t *root;      ///< views, accessors, materials and others are added to what it has
-    json_int_t buffer; ///< that the bytes are in
+    struct glb *source; ///< the file that it continues, whose buffers have been read; NULL: it is a new one
+    json_t *root;       ///< views, accessors, materials and others are added to what it has
+    json_int_t buffer;  ///< that the bytes are in
     char *data;
     size_t size, capacity;
     bool without_memory;
@@ -44,9 +45,9 @@ enum gltf_elements {
     ELEMENTS_TURNS
 };
 
-/// Continues a file whose buffers have been read, and puts all bytes that the JSON refers to, pictures too, into the new file's one buffer.
+/// Takes the source's JSON, and puts all bytes that the JSON refers to, pictures too, into the new file's one buffer.
 /// Errors: pictures that cannot keep their address.
-bool gltf_file_gather(struct gltf_file *file, struct glb *source, struct error *error);
+bool gltf_file_gather(struct gltf_file *file, struct error *error);
 
 /// Adds bytes that views refer to already, padded to a multiple of four; returns their offset.
 size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size);
@@ -104,10 +105,9 @@ struct gltf_weights {
 };
 
 struct gltf_retargeting {
-    struct gltf_file *file; ///< continues `source`, whose buffers have been read
-    struct glb *source;
-    struct pool *pool; ///< of the numbers that are made
-    int mesh, before;  ///< its number, and that of its targets before
+    struct gltf_file *file; ///< that continues one
+    struct pool *pool;      ///< of the numbers that are made
+    int mesh, before;       ///< its number, and that of its targets before
     struct gltf_retarget *list;
     int count;
     bool clamped;               ///< weights are to be 0 … 1
@@ -116,8 +116,8 @@ struct gltf_retargeting {
 };
 
 /// The numbers of an accessor of the file, or of one that was added.
-bool gltf_file_numbers(const struct gltf_file *file, const struct glb *source, int64_t accessor, struct pool *pool,
-                       struct glb_numbers *numbers, struct error *error);
+bool gltf_file_numbers(const struct gltf_file *file, int64_t accessor, struct pool *pool, struct glb_numbers *numbers,
+                       struct error *error);
 
 /// Finds the weights of the mesh in all clips. Errors: numbers that cannot be read.
 bool gltf_find_weights(struct gltf_retargeting *r, struct error *error);
