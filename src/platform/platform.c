@@ -179,40 +179,15 @@ static bool open_any(struct offscreen *offscreen, struct error *error)
                 "no EGL device gives an OpenGL 3.3 context without a display: install libgl1-mesa-dri");
 }
 
-static bool create_framebuffer(struct offscreen *offscreen, int width, int height, struct error *error)
-{
-    GLint largest = 0;
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-    if (width < 1 || height < 1 || width > largest || height > largest) {
-        return fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d", largest,
-                    width, height);
-    }
-    glGenRenderbuffers(1, &offscreen->color);
-    glBindRenderbuffer(GL_RENDERBUFFER, offscreen->color);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
-    glGenRenderbuffers(1, &offscreen->depth);
-    glBindRenderbuffer(GL_RENDERBUFFER, offscreen->depth);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
-    glGenFramebuffers(1, &offscreen->framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, offscreen->framebuffer);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, offscreen->color);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, offscreen->depth);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return true;
-    return fail(error, ERROR_ENVIRONMENT, "the graphics driver makes no framebuffer of %d × %d pixels", width,
-                height);
-}
-
 // --- a window
 
 enum { CURSOR_KINDS = CURSOR_TEXT + 1 };
 
 struct window {
     GLFWwindow *handle;
-    struct event_queue *queue;
     GLFWcursor *cursors[CURSOR_KINDS]; ///< created when there is a pointer
     bool has_cursors;
     enum mouse_cursor cursor;
-    struct surface_size size;
     float units; ///< logical pixels per GLFW window coordinate
     struct clicks clicks;
     bool is_shown; ///< since the first swap
@@ -258,94 +233,86 @@ static int key_of(int glfw_key, int scancode)
     return key == KEY_NONE && letter ? glfw_key : key;
 }
 
-static unsigned mods_of(int glfw_mods)
-{
-    return (glfw_mods & GLFW_MOD_SHIFT ? (unsigned)MOD_SHIFT : 0u) |
-           (glfw_mods & GLFW_MOD_CONTROL ? (unsigned)MOD_CTRL : 0u) |
-           (glfw_mods & GLFW_MOD_ALT ? (unsigned)MOD_ALT : 0u) |
-           (glfw_mods & GLFW_MOD_SUPER ? (unsigned)MOD_SUPER : 0u);
-}
+// Our buttons, actions and modifiers have GLFW's numbers, which has more modifiers.
+_Static_assert(BUTTON_LEFT == GLFW_MOUSE_BUTTON_LEFT && BUTTON_RIGHT == GLFW_MOUSE_BUTTON_RIGHT &&
+                   BUTTON_MIDDLE == GLFW_MOUSE_BUTTON_MIDDLE && ACTION_RELEASE == GLFW_RELEASE &&
+                   ACTION_PRESS == GLFW_PRESS && ACTION_REPEAT == GLFW_REPEAT && MOD_SHIFT == GLFW_MOD_SHIFT &&
+                   MOD_CTRL == GLFW_MOD_CONTROL && MOD_ALT == GLFW_MOD_ALT && MOD_SUPER == GLFW_MOD_SUPER,
+               "the same numbers");
+static const unsigned OUR_MODS = MOD_SHIFT | MOD_CTRL | MOD_ALT | MOD_SUPER;
 
 // Callbacks, which only translate and queue
 
-static struct window *of(GLFWwindow *handle) { return glfwGetWindowUserPointer(handle); }
-
-static void push(struct window *window, struct event event)
+static void push(GLFWwindow *handle, struct event event)
 {
+    struct platform *platform = glfwGetWindowUserPointer(handle);
     event.time = clock_now();
-    event_queue_push(window->queue, &event);
+    event_queue_push(&platform->queue, &event);
 }
 
 /// Reads size and scale; true if they changed.
-static bool update_size(struct window *window)
+static bool update_size(struct platform *platform)
 {
-    struct surface_size before = window->size, now = before;
-    int width = 0, height = 0;
-    float scale_x = 1.0f, scale_y = 1.0f;
-    glfwGetFramebufferSize(window->handle, &now.width, &now.height);
-    glfwGetWindowSize(window->handle, &width, &height);
-    glfwGetWindowContentScale(window->handle, &scale_x, &scale_y);
-    if (now.width < 1 || now.height < 1 || width < 1) return false; // minimised
-    now.scale = scale_x > 0.25f && scale_x < 16.0f ? scale_x : 1.0f;
-    window->size = now;
-    window->units = (float)now.width / (float)width / now.scale;
-    return now.width != before.width || now.height != before.height || now.scale != before.scale;
-}
-
-static void handle_size(struct window *window)
-{
-    if (!update_size(window)) return;
-    struct surface_size size = window->size;
-    push(window, (struct event){.kind = EVENT_SIZE,
-                                .x = (float)size.width / size.scale,
-                                .y = (float)size.height / size.scale,
-                                .scale = size.scale});
+    GLFWwindow *handle = platform->window->handle;
+    int device_width = 0, device_height = 0, width = 0, height = 0;
+    float scale = 1.0f, scale_y = 1.0f;
+    glfwGetFramebufferSize(handle, &device_width, &device_height);
+    glfwGetWindowSize(handle, &width, &height);
+    glfwGetWindowContentScale(handle, &scale, &scale_y);
+    if (device_width < 1 || device_height < 1 || width < 1) return false; // minimised
+    if (!(scale > 0.25f && scale < 16.0f)) scale = 1.0f;
+    const bool changes =
+        device_width != platform->width || device_height != platform->height || scale != platform->scale;
+    platform->width = device_width;
+    platform->height = device_height;
+    platform->scale = scale;
+    platform->window->units = (float)device_width / (float)width / scale;
+    return changes;
 }
 
 static void on_framebuffer_size(GLFWwindow *handle, int width, int height)
 {
-    (void)width;
-    (void)height;
-    handle_size(of(handle));
+    (void)width, (void)height;
+    struct platform *p = glfwGetWindowUserPointer(handle);
+    if (update_size(p))
+        push(handle, (struct event){.kind = EVENT_SIZE,
+                                    .x = (float)p->width / p->scale,
+                                    .y = (float)p->height / p->scale,
+                                    .scale = p->scale});
 }
 
 static void on_content_scale(GLFWwindow *handle, float x, float y)
 {
-    (void)x;
-    (void)y;
-    handle_size(of(handle));
+    (void)x, (void)y;
+    on_framebuffer_size(handle, 0, 0);
 }
 
 static void on_focus(GLFWwindow *handle, int focused)
 {
-    if (focused) push(of(handle), (struct event){.kind = EVENT_FOCUS});
+    if (focused) push(handle, (struct event){.kind = EVENT_FOCUS});
 }
 
-static void on_refresh(GLFWwindow *handle) { push(of(handle), (struct event){.kind = EVENT_EXPOSE}); }
+static void on_refresh(GLFWwindow *handle) { push(handle, (struct event){.kind = EVENT_EXPOSE}); }
 
 static void on_close(GLFWwindow *handle)
 {
     // The app decides after asking about unsaved work.
     glfwSetWindowShouldClose(handle, GLFW_FALSE);
-    push(of(handle), (struct event){.kind = EVENT_CLOSE});
-}
-
-static enum event_action action_of(int glfw_action)
-{
-    return glfw_action == GLFW_PRESS ? ACTION_PRESS : glfw_action == GLFW_REPEAT ? ACTION_REPEAT : ACTION_RELEASE;
+    push(handle, (struct event){.kind = EVENT_CLOSE});
 }
 
 static void on_character(GLFWwindow *handle, unsigned codepoint)
 {
-    push(of(handle), (struct event){.kind = EVENT_TEXT, .codepoint = codepoint});
+    push(handle, (struct event){.kind = EVENT_TEXT, .codepoint = codepoint});
 }
 
-static void pointer_place(struct window *window, float *x, float *y)
+static void set_place(struct event *event, GLFWwindow *handle)
 {
-    double window_x = 0.0, window_y = 0.0;
-    glfwGetCursorPos(window->handle, &window_x, &window_y);
-    *x = (float)window_x * window->units;
-    *y = (float)window_y * window->units;
+    const struct platform *platform = glfwGetWindowUserPointer(handle);
+    double x = 0.0, y = 0.0;
+    glfwGetCursorPos(handle, &x, &y);
+    event->x = (float)x * platform->window->units;
+    event->y = (float)y * platform->window->units;
 }
 
 /// GLFW does not report modifiers with the wheel.
@@ -373,12 +340,13 @@ static void on_pointer(GLFWwindow *handle, double x, double y)
         [CURSOR_HORIZONTAL] = GLFW_HRESIZE_CURSOR, [CURSOR_VERTICAL] = GLFW_VRESIZE_CURSOR,
         [CURSOR_MOVE] = GLFW_CROSSHAIR_CURSOR,     [CURSOR_TEXT] = GLFW_IBEAM_CURSOR,
     };
-    struct window *window = of(handle);
+    const struct platform *platform = glfwGetWindowUserPointer(handle);
+    struct window *window = platform->window;
     // Only now: GLFW 3.3 crashes if it makes a cursor on a Wayland display without a pointer.
     for (int i = 0; !window->has_cursors && i < CURSOR_KINDS; i++)
         window->cursors[i] = glfwCreateStandardCursor(shapes[i]);
     window->has_cursors = true;
-    push(window, (struct event){.kind = EVENT_POINTER,
+    push(handle, (struct event){.kind = EVENT_POINTER,
                                 .x = (float)x * window->units,
                                 .y = (float)y * window->units,
                                 .mods = mods_now(handle)});
@@ -386,7 +354,6 @@ static void on_pointer(GLFWwindow *handle, double x, double y)
 
 static void on_key(GLFWwindow *handle, int glfw_key, int scancode, int action, int glfw_mods)
 {
-    struct window *window = of(handle);
     int key = key_of(glfw_key, scancode);
     if (key == KEY_NONE) { // Alt, say
         double x = 0.0, y = 0.0;
@@ -394,36 +361,37 @@ static void on_key(GLFWwindow *handle, int glfw_key, int scancode, int action, i
         on_pointer(handle, x, y);
         return;
     }
-    push(window,
-         (struct event){.kind = EVENT_KEY, .key = key, .action = action_of(action), .mods = mods_of(glfw_mods)});
+    push(handle, (struct event){.kind = EVENT_KEY,
+                                .key = key,
+                                .action = (enum event_action)action,
+                                .mods = (unsigned)glfw_mods & OUR_MODS});
 }
 
 static void on_button(GLFWwindow *handle, int glfw_button, int action, int glfw_mods)
 {
-    struct window *window = of(handle);
+    const struct platform *platform = glfwGetWindowUserPointer(handle);
     if (glfw_button > GLFW_MOUSE_BUTTON_MIDDLE) return;
-    enum event_button button = glfw_button == GLFW_MOUSE_BUTTON_LEFT    ? BUTTON_LEFT
-                               : glfw_button == GLFW_MOUSE_BUTTON_RIGHT ? BUTTON_RIGHT
-                                                                        : BUTTON_MIDDLE;
-    struct event event = {
-        .kind = EVENT_BUTTON, .button = button, .action = action_of(action), .mods = mods_of(glfw_mods), .clicks = 1};
-    pointer_place(window, &event.x, &event.y);
-    if (event.action == ACTION_PRESS) event.clicks = clicks_count(&window->clicks, &event, clock_now());
-    push(window, event);
+    struct event event = {.kind = EVENT_BUTTON,
+                          .button = (enum event_button)glfw_button,
+                          .action = (enum event_action)action,
+                          .mods = (unsigned)glfw_mods & OUR_MODS,
+                          .clicks = 1};
+    set_place(&event, handle);
+    if (event.action == ACTION_PRESS) event.clicks = clicks_count(&platform->window->clicks, &event, clock_now());
+    push(handle, event);
 }
 
 static void on_wheel(GLFWwindow *handle, double dx, double dy)
 {
-    struct window *window = of(handle);
     struct event event = {.kind = EVENT_WHEEL, .dx = (float)dx, .dy = (float)dy, .mods = mods_now(handle)};
-    pointer_place(window, &event.x, &event.y);
-    push(window, event);
+    set_place(&event, handle);
+    push(handle, event);
 }
 
 static void on_drop(GLFWwindow *handle, int count, const char **paths)
 {
-    struct window *window = of(handle);
-    for (int i = 0; i < count; i++) event_queue_push_drop(window->queue, paths[i], clock_now());
+    struct platform *platform = glfwGetWindowUserPointer(handle);
+    for (int i = 0; i < count; i++) event_queue_push_drop(&platform->queue, paths[i], clock_now());
 }
 
 /// Fails with GLFW's reason.
@@ -572,13 +540,12 @@ struct platform *platform_window(int width, int height, const char *title, int v
     }
     struct window *window = platform->window = need_zeroed(1, sizeof *window);
     window->handle = handle;
-    window->queue = &platform->queue;
     window->units = 1.0f;
-    glfwSetWindowUserPointer(handle, window);
+    glfwSetWindowUserPointer(handle, platform);
     glfwSetWindowSizeLimits(handle, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(handle);
     glfwSwapInterval(vsync);
-    update_size(window);
+    update_size(platform);
     glfwSetFramebufferSizeCallback(handle, on_framebuffer_size);
     glfwSetWindowContentScaleCallback(handle, on_content_scale);
     glfwSetWindowRefreshCallback(handle, on_refresh);
@@ -599,7 +566,9 @@ struct platform *platform_window(int width, int height, const char *title, int v
 struct platform *platform_blind(int width, int height, float scale)
 {
     struct platform *platform = create_platform();
-    platform->size = (struct surface_size){width, height, scale};
+    platform->width = width;
+    platform->height = height;
+    platform->scale = scale;
     return platform;
 }
 
@@ -614,7 +583,29 @@ struct platform *platform_offscreen(int width, int height, float scale, struct e
         return NULL;
     }
     keep_driver_loaded();
-    if (create_framebuffer(platform->offscreen, width, height, error) && gl_debug_start(error)) return platform;
+    GLint largest = 0;
+    struct offscreen *offscreen = platform->offscreen;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
+    if (width < 1 || height < 1 || width > largest || height > largest) {
+        fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d", largest, width,
+             height);
+        platform_destroy(platform);
+        return NULL;
+    }
+    glGenRenderbuffers(1, &offscreen->color);
+    glBindRenderbuffer(GL_RENDERBUFFER, offscreen->color);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glGenRenderbuffers(1, &offscreen->depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, offscreen->depth);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
+    glGenFramebuffers(1, &offscreen->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, offscreen->framebuffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, offscreen->color);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, offscreen->depth);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        fail(error, ERROR_ENVIRONMENT, "the graphics driver makes no framebuffer of %d × %d pixels", width, height);
+    else if (gl_debug_start(error))
+        return platform;
     platform_destroy(platform);
     return NULL;
 }
@@ -695,10 +686,9 @@ const struct event *platform_events(struct platform *platform, double seconds, i
 
 void platform_size(const struct platform *platform, int *width, int *height, float *scale)
 {
-    const struct surface_size size = platform->window ? platform->window->size : platform->size;
-    *width = size.width;
-    *height = size.height;
-    *scale = size.scale;
+    *width = platform->width;
+    *height = platform->height;
+    *scale = platform->scale;
 }
 
 void platform_swap(struct platform *platform)
@@ -711,7 +701,7 @@ void platform_swap(struct platform *platform)
 
     // The first swap shows the window, and tests whether it keeps the back buffer: no older buffer can hold this frame's middle row. On a GPU
     // the standard leaves the content undefined, whatever one test shows.
-    const int width = window->size.width, y = window->size.height / 2;
+    const int width = platform->width, y = platform->height / 2;
     const size_t bytes = 4 * (size_t)width;
     const char *renderer = window->is_shown ? NULL : (const char *)glGetString(GL_RENDERER);
     const bool is_software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe"));

@@ -9,17 +9,11 @@
 struct window;
 struct offscreen;
 
-/// A surface's framebuffer.
-struct surface_size {
-    int width, height; ///< device pixels
-    float scale;       ///< device pixels per logical pixel
-};
-
-/// At most one of the two exists.
 struct platform {
-    struct window *window;
+    struct window *window; ///< at most one of these two exists
     struct offscreen *offscreen;
-    struct surface_size size; ///< without a window
+    int width, height; ///< of the framebuffer, device pixels
+    float scale;       ///< device pixels per logical pixel
     struct event_queue queue;
     bool keeps;
     char *clipboard; ///< without a window
