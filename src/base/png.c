@@ -16,28 +16,10 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, const struct png_picture *p,
-                enum png_effort effort)
+unsigned char *png_encode(const struct png_picture *p, enum png_effort effort, int *size)
 {
-    int size;
     stbi_write_png_compression_level = (int)effort;
-    unsigned char *png =
-        stbi_write_png_to_mem(p->pixels, p->channels * p->width, p->width, p->height, p->channels, &size);
-    store(user, png, (size_t)size);
-    free(png);
-}
-
-/// The destination of the encoder's output, and whether all of it was written.
-struct sink {
-    const char *path;
-    struct error *error;
-    bool written;
-};
-
-static void store(void *user, const void *bytes, size_t size)
-{
-    struct sink *sink = user;
-    sink->written = file_write_atomic(sink->path, bytes, size, sink->error);
+    return stbi_write_png_to_mem(p->pixels, p->channels * p->width, p->width, p->height, p->channels, size);
 }
 
 bool png_write(const char *path, int width, int height, const unsigned char *rgba, struct error *error)
@@ -46,7 +28,9 @@ bool png_write(const char *path, int width, int height, const unsigned char *rgb
         return fail(error, ERROR_INPUT, "%s: expected a picture of 1 to 16384 pixels a side, got %d × %d", path,
                     width, height);
     }
-    struct sink sink = {.path = path, .error = error};
-    png_encode(store, &sink, &(struct png_picture){width, height, 4, rgba}, PNG_FAST);
-    return sink.written;
+    int size;
+    unsigned char *png = png_encode(&(struct png_picture){width, height, 4, rgba}, PNG_FAST, &size);
+    const bool written = file_write_atomic(path, png, (size_t)size, error);
+    free(png);
+    return written;
 }

@@ -17,9 +17,8 @@ struct png_picture {
     const unsigned char *pixels;
 };
 
-/// Hands a whole PNG over to `store`, once.
-void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user,
-                const struct png_picture *picture, enum png_effort effort);
+/// A whole PNG of `*size` bytes, from need().
+unsigned char *png_encode(const struct png_picture *picture, enum png_effort effort, int *size);
 
 // The transfer function of sRGB (IEC 61966-2-1), a channel of 0 … 1 at a time.
 

@@ -159,13 +159,6 @@ static json_t *make_materials(struct output *o)
     return array;
 }
 
-/// Called by the encoder with the whole file.
-static void add_png(void *output, const void *bytes, size_t size)
-{
-    struct output *o = output;
-    o->picture = gltf_file_add_bytes(&o->file, bytes, size);
-}
-
 /// The tag's picture: brass with a decaying swing, wiggly's mark.
 static void add_picture(struct output *o)
 {
@@ -179,7 +172,11 @@ static void add_picture(struct output *o)
             memcpy(pixels[y][x], mark ? dark : brass, 3);
         }
     }
-    png_encode(add_png, o, &(struct png_picture){TAG_PIXELS, TAG_PIXELS, 3, &pixels[0][0][0]}, PNG_SMALL);
+    int size;
+    const struct png_picture picture = {TAG_PIXELS, TAG_PIXELS, 3, &pixels[0][0][0]};
+    unsigned char *png = png_encode(&picture, PNG_SMALL, &size);
+    o->picture = gltf_file_add_bytes(&o->file, png, (size_t)size);
+    free(png);
 }
 
 /// Node 0 is the root, node j + 1 is joint j.
