@@ -71,9 +71,10 @@ struct film_file {
     const char *path;
     struct film_shape shape;
     struct file_output output; ///< of .gif and ffmpeg
-    long written;              ///< pictures, of .gif and .png
 
     // .gif
+    struct pool pool;
+    long written;        ///< pictures
     unsigned char *last; ///< the pixels as they were when each was last written
     bool *drawn;
     unsigned char *indices;
@@ -90,6 +91,7 @@ struct film_file {
     // .png
     int before, digits; ///< bytes of the path before the number; least number of digits; −1: no number
     const char *after;  ///< the path after the number
+    long loose;         ///< pictures written, which are removed if no more come
     off_t bytes;
 };
 
@@ -162,40 +164,24 @@ static void put_short(FILE *stream, long value)
     putc((int)(value >> 8 & 255), stream);
 }
 
-static void close_gif(struct film_file *file)
+static bool open_gif(struct film_file *file, struct error *error)
 {
-    file_output_discard(&file->output);
-    free(file->cells);
-    free(file->colors);
-    free(file->errors);
-    free(file->last);
-    free(file->drawn);
-    free(file->indices);
-    free(file);
-}
-
-static struct film_file *open_gif(const char *path, const struct film_shape *shape, struct error *error)
-{
-    struct film_file *file = need_zeroed(1, sizeof *file);
+    const struct film_shape *shape = &file->shape;
     const size_t pixels = (size_t)shape->width * (size_t)shape->height;
-    file->shape = *shape;
-    file->last = need(pixels, 4);
-    file->drawn = need(pixels, sizeof *file->drawn);
-    file->indices = need(pixels, 1);
-    file->cells = need(CELLS, sizeof *file->cells);
-    file->colors = need(pixels < CELLS ? pixels : CELLS, sizeof *file->colors);
-    file->errors = need(2 * 3 * ((size_t)shape->width + 2), sizeof *file->errors);
-    if (!file_output_open(&file->output, path, error)) {
-        close_gif(file);
-        return NULL;
-    }
+    file->last = pool_take(&file->pool, pixels, 4);
+    file->drawn = pool_take(&file->pool, pixels, sizeof *file->drawn);
+    file->indices = pool_take(&file->pool, pixels, 1);
+    file->cells = pool_take(&file->pool, CELLS, sizeof *file->cells);
+    file->colors = pool_take(&file->pool, pixels < CELLS ? pixels : CELLS, sizeof *file->colors);
+    file->errors = pool_take(&file->pool, 2 * 3 * ((size_t)shape->width + 2), sizeof *file->errors);
+    if (!file_output_open(&file->output, file->path, error)) return false;
     FILE *stream = file->lzw.stream = file->output.stream;
     fputs("GIF89a", stream);
     put_short(stream, shape->width);
     put_short(stream, shape->height);
     fwrite("\x70\0\0", 1, 3, stream);                               // no colors for all pictures
     fwrite("\x21\xff\x0bNETSCAPE2.0\x03\x01\0\0\0", 1, 19, stream); // forever
-    return file;
+    return true;
 }
 
 struct rectangle {
@@ -414,7 +400,7 @@ static enum film_state finish_gif(struct film_file *file, bool wait, off_t *byte
     return file_output_commit(&file->output, error) ? FILM_DONE : FILM_FAILED;
 }
 
-const struct film_file_kind film_gif = {open_gif, put_gif, finish_gif, close_gif};
+const struct film_file_kind film_gif = {open_gif, put_gif, finish_gif};
 
 // === ffmpeg, which reads raw pictures from standard input and writes a temporary file
 
@@ -425,52 +411,35 @@ enum { PATIENCE = 100 };
 /// ffmpeg writes to its standard output, here a seekable file because .mp4 needs to seek back.
 static char output_name[] = "/dev/fd/1";
 
-static void close_encoder(struct film_file *file)
+static bool open_encoder(struct film_file *file, struct error *error)
 {
-    if (file->feed >= 0) close(file->feed);
-    child_end(&file->encoder);
-    file_output_discard(&file->output);
-    free(file);
-}
-
-static struct film_file *open_encoder(const char *path, const struct film_shape *shape, struct error *error)
-{
-    struct film_file *file = need_zeroed(1, sizeof *file);
-    file->path = path;
-    file->size = 4 * (size_t)shape->width * (size_t)shape->height;
-    file->feed = -1;
-    if (file_output_open(&file->output, path, error)) {
-        char size[32], rate[32];
-        snprintf(size, sizeof size, "%dx%d", shape->width, shape->height);
-        snprintf(rate, sizeof rate, "%.10g", shape->rate);
-        char *const input[] = {"ffmpeg",   "-nostdin", "-hide_banner", "-loglevel",   "error", "-f",
-                               "rawvideo", "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
-                               rate,       "-i",       "pipe:0",       "-y"};
-        char *arguments[MAX_ARGUMENTS] = {NULL};
-        int count = 0, ends[2], cause;
-        for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
-        for (char *const *coding = shape->coding; *coding; coding++) arguments[count++] = *coding;
-        arguments[count] = output_name;
-        // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
-        if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-            cause = errno;
-        } else {
-            file->feed = ends[0];
-            cause = child_start(&file->encoder, arguments, ends[1], fileno(file->output.stream));
-            close(ends[1]);
-        }
-        if (cause == 0) return file;
-        if (cause == ENOENT) {
-            fail(error, ERROR_ENVIRONMENT,
-                 "%s: ffmpeg, which makes it, is missing: install the package ffmpeg, or write .gif or .png, which "
-                 "need nothing",
-                 path);
-        } else {
-            fail(error, ERROR_ENVIRONMENT, "ffmpeg: cannot be run: %s", strerror(cause));
-        }
+    char size[32], rate[32];
+    file->size = 4 * (size_t)file->shape.width * (size_t)file->shape.height;
+    snprintf(size, sizeof size, "%dx%d", file->shape.width, file->shape.height);
+    snprintf(rate, sizeof rate, "%.10g", file->shape.rate);
+    char *const input[] = {"ffmpeg",   "-nostdin", "-hide_banner", "-loglevel",   "error", "-f",
+                           "rawvideo", "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
+                           rate,       "-i",       "pipe:0",       "-y"};
+    char *arguments[MAX_ARGUMENTS] = {NULL};
+    int count = 0, ends[2], cause;
+    for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
+    for (char *const *coding = file->shape.coding; *coding; coding++) arguments[count++] = *coding;
+    arguments[count] = output_name;
+    if (!file_output_open(&file->output, file->path, error)) return false;
+    // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+        cause = errno;
+    } else {
+        file->feed = ends[0];
+        cause = child_start(&file->encoder, arguments, ends[1], fileno(file->output.stream));
+        close(ends[1]);
     }
-    close_encoder(file);
-    return NULL;
+    if (cause == 0) return true;
+    if (cause != ENOENT) return fail(error, ERROR_ENVIRONMENT, "ffmpeg: cannot be run: %s", strerror(cause));
+    return fail(error, ERROR_ENVIRONMENT,
+                "%s: ffmpeg, which makes it, is missing: install the package ffmpeg, or write .gif or .png, which "
+                "need nothing",
+                file->path);
 }
 
 /// Fails with the last line ffmpeg wrote.
@@ -518,7 +487,7 @@ static enum film_state finish_encoder(struct film_file *file, bool wait, off_t *
     return file_output_commit(&file->output, error) ? FILM_DONE : FILM_FAILED;
 }
 
-const struct film_file_kind film_ffmpeg = {open_encoder, put_encoder, finish_encoder, close_encoder};
+const struct film_file_kind film_ffmpeg = {open_encoder, put_encoder, finish_encoder};
 
 /// sRGB, also noted in the file.
 #define SCREEN_COLORS(format)                                                                                        \
@@ -536,29 +505,6 @@ char *const film_webm_alpha[] = {SCREEN_COLORS("yuva420p"), WEBM};
 
 // === numbered pictures, each written to its place
 
-/// Splits the path at its "%04d", or before ".png" if there is more than one picture.
-static bool split_path(struct film_file *file, struct error *error)
-{
-    const char *path = file->path, *name = path_name(path);
-    const char *sign = strchr(name, '%');
-    file->digits = -1;
-    file->before = (int)(strlen(path) - strlen(".png"));
-    file->after = path + file->before;
-    if (!sign) {
-        if (file->shape.count > 1) file->digits = 4;
-        return true;
-    }
-    int digits = 1, length = 0;
-    if (isdigit((unsigned char)sign[1])) sscanf(sign + 1, "%9d%n", &digits, &length);
-    const char *end = sign + 1 + length;
-    if (*end != 'd' || digits > 9 || strchr(end, '%'))
-        return fail(error, ERROR_USAGE, "%s: expected one number in the name, as in walk-%%04d.png", path);
-    file->before = (int)(sign - path);
-    file->digits = digits;
-    file->after = end + 1;
-    return true;
-}
-
 static bool name_picture(const struct film_file *file, long number, char name[PATH_LIMIT], struct error *error)
 {
     int length = file->digits < 0 ? snprintf(name, PATH_LIMIT, "%s", file->path)
@@ -567,19 +513,28 @@ static bool name_picture(const struct film_file *file, long number, char name[PA
     return length < PATH_LIMIT || fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
 }
 
-static struct film_file *open_pictures(const char *path, const struct film_shape *shape, struct error *error)
+static bool open_pictures(struct film_file *file, struct error *error)
 {
-    struct film_file *file = need_zeroed(1, sizeof *file);
-    file->path = path;
-    file->shape = *shape;
-    bool good = split_path(file, error);
-    for (long n = 1; good && n <= shape->count; n++) { // all places must be free before anything is drawn
-        char name[PATH_LIMIT];
-        good = name_picture(file, n, name, error) && file_check_place(name, error);
+    // The path is split at its "%04d", or before ".png" if there is more than one picture.
+    const char *path = file->path, *sign = strchr(path_name(path), '%');
+    file->digits = file->shape.count > 1 ? 4 : -1;
+    file->before = (int)(strlen(path) - strlen(".png"));
+    file->after = path + file->before;
+    if (sign) {
+        int digits = 1, length = 0;
+        if (isdigit((unsigned char)sign[1])) sscanf(sign + 1, "%9d%n", &digits, &length);
+        const char *end = sign + 1 + length;
+        if (*end != 'd' || digits > 9 || strchr(end, '%'))
+            return fail(error, ERROR_USAGE, "%s: expected one number in the name, as in walk-%%04d.png", path);
+        file->before = (int)(sign - path);
+        file->digits = digits;
+        file->after = end + 1;
     }
-    if (good) return file;
-    free(file);
-    return NULL;
+    for (long n = 1; n <= file->shape.count; n++) { // all places must be free before anything is drawn
+        char name[PATH_LIMIT];
+        if (!name_picture(file, n, name, error) || !file_check_place(name, error)) return false;
+    }
+    return true;
 }
 
 static enum film_state put_picture(struct film_file *file, const unsigned char *pixels, bool wait,
@@ -588,11 +543,11 @@ static enum film_state put_picture(struct film_file *file, const unsigned char *
     char name[PATH_LIMIT];
     struct stat status;
     (void)wait;
-    if (!name_picture(file, file->written + 1, name, error) ||
+    if (!name_picture(file, file->loose + 1, name, error) ||
         !png_write(name, file->shape.width, file->shape.height, pixels, error))
         return FILM_FAILED;
     if (stat(name, &status) == 0) file->bytes += status.st_size;
-    file->written++;
+    file->loose++;
     return FILM_DONE;
 }
 
@@ -601,22 +556,38 @@ static enum film_state finish_pictures(struct film_file *file, bool wait, off_t 
     (void)wait;
     (void)error;
     *bytes = file->bytes;
-    file->written = 0; // of which none is to be removed
+    file->loose = 0;
     return FILM_DONE;
 }
 
-static void close_pictures(struct film_file *file)
-{
-    char name[PATH_LIMIT];
-    for (long n = 1; n <= file->written; n++) {
-        if (name_picture(file, n, name, &(struct error){0})) unlink(name);
-    }
-    free(file);
-}
-
-const struct film_file_kind film_png = {open_pictures, put_picture, finish_pictures, close_pictures};
+const struct film_file_kind film_png = {open_pictures, put_picture, finish_pictures};
 
 // === the film
+
+struct film_file *film_file_open(const struct film_file_kind *kind, const char *path, const struct film_shape *shape,
+                                 struct error *error)
+{
+    struct film_file *file = need_zeroed(1, sizeof *file);
+    file->path = path;
+    file->shape = *shape;
+    file->feed = -1;
+    if (kind->open(file, error)) return file;
+    film_file_close(file);
+    return NULL;
+}
+
+void film_file_close(struct film_file *file)
+{
+    char name[PATH_LIMIT];
+    if (file->feed >= 0) close(file->feed);
+    child_end(&file->encoder);
+    for (long n = 1; n <= file->loose; n++) {
+        if (name_picture(file, n, name, &(struct error){0})) unlink(name);
+    }
+    file_output_discard(&file->output);
+    pool_free(&file->pool);
+    free(file);
+}
 
 enum { MAX_PICTURES = 10000000, MAX_SIDE = 8192 };
 
@@ -702,7 +673,7 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
     film->editor = editor_create(NULL);
     if (file_check_place(path, error) && choose_shape(film, opened->document, options, error) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
-        (film->file = film->kind->open(path, &film->shape, error))) {
+        (film->file = film_file_open(film->kind, path, &film->shape, error))) {
         editor_open(film->editor, &(struct editor_world){.document = opened->document,
                                                          .evaluation = &opened->evaluation,
                                                          .models = opened->models});
@@ -761,7 +732,7 @@ void film_report(const struct film *film, struct export_report *report)
 void film_close(struct film *film)
 {
     if (!film) return;
-    if (film->file) film->kind->close(film->file);
+    if (film->file) film_file_close(film->file);
     picture_destroy(film->picture);
     editor_destroy(film->editor);
     free(film);

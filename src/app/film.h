@@ -43,17 +43,21 @@ struct film_file;
 
 /// No film appears under its name before finish() returns FILM_DONE; numbered pictures appear one by one.
 struct film_file_kind {
-    /// NULL with an error. Keep `path` until close().
-    struct film_file *(*open)(const char *path, const struct film_shape *shape, struct error *error);
+    /// Of a file that has its path and shape.
+    bool (*open)(struct film_file *file, struct error *error);
     /// Takes the next picture. FILM_RUNS: call again with the same one (only without `wait`, or after a signal).
     enum film_state (*put)(struct film_file *file, const unsigned char *pixels, bool wait, struct error *error);
     /// Call after the last picture. FILM_RUNS while still writing. `*bytes`: size of the files.
     enum film_state (*finish)(struct film_file *file, bool wait, off_t *bytes, struct error *error);
-    /// Deletes unfinished files, and all numbered pictures of an unfinished film.
-    void (*close)(struct film_file *file);
 };
 
 extern const struct film_file_kind film_ffmpeg, film_gif, film_png;
+
+/// NULL with an error. Keep `path` until film_file_close().
+struct film_file *film_file_open(const struct film_file_kind *kind, const char *path, const struct film_shape *shape,
+                                 struct error *error);
+/// Deletes unfinished files, and all numbered pictures of an unfinished film.
+void film_file_close(struct film_file *file);
 
 /// Arguments for ffmpeg, NULL-terminated.
 extern char *const film_mp4[], *const film_webm[], *const film_webm_alpha[];

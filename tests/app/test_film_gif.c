@@ -34,11 +34,11 @@ static void write_film(const char *path, int width, int height)
     struct error error;
     off_t bytes;
     const struct film_shape shape = {width, height, .rate = 24, .count = PICTURES};
-    struct film_file *film = film_gif.open(path, &shape, &error);
+    struct film_file *film = film_file_open(&film_gif, path, &shape, &error);
     assert_non_null(film);
     for (int p = 0; p < PICTURES; p++) assert_int_equal(film_gif.put(film, written[p], true, &error), FILM_DONE);
     assert_int_equal(film_gif.finish(film, true, &bytes, &error), FILM_DONE);
-    film_gif.close(film);
+    film_file_close(film);
 }
 
 /// ImageMagick finds so many pictures of this size.

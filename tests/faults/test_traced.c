@@ -299,7 +299,7 @@ static int make_film(const struct film_file_kind *kind, const char *path)
     struct error error = {0};
     off_t bytes;
     for (size_t i = 0; i < sizeof pixels; i++) pixels[i] = (unsigned char)(i * i / 97);
-    struct film_file *film = kind->open(path, &(struct film_shape){SIDE, SIDE, 24, 2, film_mp4}, &error);
+    struct film_file *film = film_file_open(kind, path, &(struct film_shape){SIDE, SIDE, 24, 2, film_mp4}, &error);
     if (!film) return status_of(false, &error);
     enum film_state state = FILM_DONE;
     for (int i = 0; i < 3 && state == FILM_DONE; i++) {
@@ -308,7 +308,7 @@ static int make_film(const struct film_file_kind *kind, const char *path)
                           : kind->finish(film, true, &bytes, &error);
         while (state == FILM_RUNS);
     }
-    kind->close(film);
+    film_file_close(film);
     return status_of(state == FILM_DONE, &error);
 }
 
