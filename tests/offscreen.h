@@ -46,7 +46,7 @@ static inline void offscreen_draw(const struct stage_view *view, int width, int 
     long bytes = 0;
     stage_upload(renderer, view, &bytes);
     assert_true(bytes > 0);
-    stage_draw(renderer, view, 0, 0, width, height);
+    stage_draw(renderer, view, 0, 0, width, height, false);
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }

@@ -60,7 +60,8 @@ static bool target_bind(struct target *target, int width, int height)
 // A grid divides the framebuffer, with the stage's viewport on cell borders. A cell's hash combines the hashes of the stage there and of the
 // commands that touch the cell, in painter's order. Cells with a changed hash are merged into rectangles.
 
-enum { DAMAGE_SIDE = 128, DAMAGE_RECTANGLES = 8 };
+/// Narrow cells make a moving playhead cheap; more cells cost more hashing.
+enum { DAMAGE_SIDE = 128, DAMAGE_RECTANGLES = 8, CELL_MIN = 16, CANDIDATES = 48 };
 
 /// One direction of the grid: cells of equal size, cut at the viewport's edges.
 struct damage_axis {
@@ -74,8 +75,8 @@ struct damage {
     uint64_t hashes[2][DAMAGE_SIDE * DAMAGE_SIDE]; ///< this frame's and the last one's, alternating
     int current;
     struct damage_axis columns, rows;
-    bool known;                                ///< the last frame's hashes match the screen
-    struct area rectangles[DAMAGE_RECTANGLES]; ///< disjoint, inside the framebuffer
+    bool known;                         ///< the last frame's hashes match the screen
+    struct area rectangles[CANDIDATES]; ///< in the end at most DAMAGE_RECTANGLES, disjoint, inside the framebuffer
     int count;
 };
 
@@ -83,15 +84,6 @@ struct damage {
 struct damage_stage {
     struct area viewport, moving;
     uint64_t hash, moving_hash; ///< of everything outside `moving`; of everything
-};
-
-/// Narrow cells make a moving playhead cheap; more cells cost more hashing.
-enum { CELL_MIN = 16, CANDIDATES = 48 };
-
-/// Rectangles being merged, in device pixels.
-struct pile {
-    struct area areas[CANDIDATES];
-    int count;
 };
 
 /// Lays out one direction; false if nothing changed.
@@ -113,15 +105,11 @@ static bool set_axis(struct damage_axis *axis, int size, int from, int to)
     return true;
 }
 
-/// The cell of a device pixel inside the framebuffer.
+/// The cell of a device pixel inside the framebuffer. Cuts only add cells before it.
 static int cell_of(const struct damage_axis *axis, int pixel)
 {
     int index = pixel / axis->cell;
-    for (int i = 0; i < 2; i++) {
-        int cut = axis->cuts[i];
-        bool counts = cut > 0 && cut < axis->size && cut % axis->cell != 0 && (i == 0 || cut != axis->cuts[0]);
-        if (counts && pixel >= cut) index++;
-    }
+    while (axis->edges[index + 1] <= pixel) index++;
     return index;
 }
 
@@ -138,19 +126,19 @@ static void mark(struct damage *damage, uint64_t *cells, struct area area, uint6
     }
 }
 
-static void merge(struct pile *pile, int i, int j)
+static void merge(struct damage *damage, int i, int j)
 {
-    pile->areas[i] = area_union(pile->areas[i], pile->areas[j]);
-    pile->areas[j] = pile->areas[--pile->count];
+    damage->rectangles[i] = area_union(damage->rectangles[i], damage->rectangles[j]);
+    damage->rectangles[j] = damage->rectangles[--damage->count];
 }
 
 /// Merges the pair whose union wastes the fewest pixels, if at most `limit`.
-static bool merge_cheapest(struct pile *pile, long limit)
+static void merge_cheapest(struct damage *damage, long limit)
 {
     int best_i = -1, best_j = -1;
-    for (int i = 0; i < pile->count; i++) {
-        for (int j = i + 1; j < pile->count; j++) {
-            const struct area a = pile->areas[i], b = pile->areas[j];
+    for (int i = 0; i < damage->count; i++) {
+        for (int j = i + 1; j < damage->count; j++) {
+            const struct area a = damage->rectangles[i], b = damage->rectangles[j];
             const long cost = area_pixels(area_union(a, b)) - area_pixels(a) - area_pixels(b);
             if (cost > limit) continue;
             limit = cost;
@@ -158,9 +146,7 @@ static bool merge_cheapest(struct pile *pile, long limit)
             best_j = j;
         }
     }
-    if (best_i < 0) return false;
-    merge(pile, best_i, best_j);
-    return true;
+    if (best_i >= 0) merge(damage, best_i, best_j);
 }
 
 static const long ANY_WASTE = LONG_MAX;
@@ -187,8 +173,9 @@ static void damage_update(struct damage *damage, int width, int height, float sc
         mark(damage, cells, area_outer(command->bounds, scale), command->hash);
 
     // The runs of changed cells in each row.
-    struct pile pile = {.count = 0};
-    if (!damage->known) pile.areas[pile.count++] = whole;
+    struct area *areas = damage->rectangles;
+    damage->count = 0;
+    if (!damage->known) areas[damage->count++] = whole;
     for (int row = 0; damage->known && row < rows; row++) {
         const uint64_t *now = cells + row * columns;
         const uint64_t *before = damage->hashes[1 - damage->current] + row * columns;
@@ -198,39 +185,37 @@ static void damage_update(struct damage *damage, int width, int height, float sc
             while (from < columns && now[from] == before[from]) from++;
             for (to = from; to < columns && now[to] != before[to];) to++;
             if (from == to) continue;
-            int above = pile.count - 1; // an equally wide one above it is extended
-            while (above >= 0 && !(pile.areas[above].y1 == y[row] && pile.areas[above].x0 == x[from] &&
-                                   pile.areas[above].x1 == x[to]))
+            int above = damage->count - 1; // an equally wide one above it is extended
+            while (above >= 0 &&
+                   !(areas[above].y1 == y[row] && areas[above].x0 == x[from] && areas[above].x1 == x[to]))
                 above--;
-            if (above < 0 && pile.count == CANDIDATES) merge_cheapest(&pile, ANY_WASTE);
+            if (above < 0 && damage->count == CANDIDATES) merge_cheapest(damage, ANY_WASTE);
             if (above < 0)
-                pile.areas[pile.count++] = (struct area){x[from], y[row], x[to], y[row + 1]};
+                areas[damage->count++] = (struct area){x[from], y[row], x[to], y[row + 1]};
             else
-                pile.areas[above].y1 = y[row + 1];
+                areas[above].y1 = y[row + 1];
         }
     }
-    for (int count = 0; damage->known && count != pile.count;) {
-        count = pile.count;
-        for (int i = 0; i < pile.count; i++) { // those that touch, until all are disjoint
-            for (int j = i + 1; j < pile.count; j++) {
-                if (!area_touches(pile.areas[i], pile.areas[j])) continue;
-                merge(&pile, i, j);
+    for (int count = 0; damage->known && count != damage->count;) {
+        count = damage->count;
+        for (int i = 0; i < damage->count; i++) { // those that touch, until all are disjoint
+            for (int j = i + 1; j < damage->count; j++) {
+                if (!area_touches(areas[i], areas[j])) continue;
+                merge(damage, i, j);
                 i = -1;
                 break;
             }
         }
         int on_stage = -1; // all that touch the stage become one
-        for (int i = 0; i < pile.count; i++) {
-            if (!area_touches(pile.areas[i], area_intersect(viewport, whole))) continue;
+        for (int i = 0; i < damage->count; i++) {
+            if (!area_touches(areas[i], area_intersect(viewport, whole))) continue;
             if (on_stage < 0)
                 on_stage = i;
             else
-                merge(&pile, on_stage, i--);
+                merge(damage, on_stage, i--);
         }
-        merge_cheapest(&pile, pile.count > DAMAGE_RECTANGLES ? ANY_WASTE : WORTH_A_RECTANGLE);
+        merge_cheapest(damage, damage->count > DAMAGE_RECTANGLES ? ANY_WASTE : WORTH_A_RECTANGLE);
     }
-    damage->count = pile.count;
-    for (int i = 0; i < pile.count; i++) damage->rectangles[i] = area_intersect(pile.areas[i], whole);
     damage->known = true;
 }
 
@@ -326,7 +311,7 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
                 (int)floorf((float)(on_stage.x0 - x) * scale) - 1, (int)floorf((float)(on_stage.y0 - y) * scale) - 1,
                 (int)ceilf((float)(on_stage.x1 - x) * scale) + 1, (int)ceilf((float)(on_stage.y1 - y) * scale) + 1};
             gl_scissor(area_intersect(needed, (struct area){0, 0, width, height}), height);
-            stage_draw(draw->stage, input->stage, 0, 0, width, height);
+            stage_draw(draw->stage, input->stage, 0, 0, width, height, false);
             glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)screen);
             gl_scissor(on_stage, input->height);
             glBlitFramebuffer(0, 0, width, height, x, input->height - viewport.y1, viewport.x1, input->height - y,
@@ -337,7 +322,7 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
     }
     gl_scissor(on_stage, input->height);
     stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, viewport.x1 - viewport.x0,
-               viewport.y1 - viewport.y0);
+               viewport.y1 - viewport.y0, false);
 }
 
 void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost)
@@ -484,10 +469,8 @@ void picture_draw(struct picture *picture, const struct stage_view *view, bool t
     if (transparent) {
         glClearColor(0, 0, 0, 0);
         glClear(GL_COLOR_BUFFER_BIT);
-        stage_draw_rigs(picture->stage, view, width, height);
-    } else {
-        stage_draw(picture->stage, view, 0, 0, width, height);
     }
+    stage_draw(picture->stage, view, 0, 0, width, height, transparent);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, picture->buffer);
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, NULL);

@@ -25,11 +25,9 @@ bool batch_create(struct batch *batch, struct error *error)
 
     const size_t stride = sizeof(struct batch_vertex);
     glGenVertexArrays(1, &batch->array);
-    glGenBuffers(1, &batch->vertex_buffer);
-    glGenBuffers(1, &batch->index_buffer);
     glBindVertexArray(batch->array);
-    glBindBuffer(GL_ARRAY_BUFFER, batch->vertex_buffer);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, batch->index_buffer);
+    batch->vertex_buffer = gl_buffer(GL_ARRAY_BUFFER, 0, NULL, GL_STREAM_DRAW);
+    batch->index_buffer = gl_buffer(GL_ELEMENT_ARRAY_BUFFER, 0, NULL, GL_STREAM_DRAW);
     gl_attribute(0, 2, GL_FLOAT, stride, offsetof(struct batch_vertex, x));
     gl_attribute(1, 2, GL_FLOAT, stride, offsetof(struct batch_vertex, u));
     gl_attribute(2, 4, GL_UNSIGNED_BYTE, stride, offsetof(struct batch_vertex, color));
@@ -66,17 +64,8 @@ void batch_begin(struct batch *batch, int width, int height, GLuint texture, int
     batch->scissor = (struct area){0, 0, width, height};
 }
 
-/// Ends the current part after the indices so far.
-static void close_part(struct batch *batch)
-{
-    if (batch->part_count == 0) return;
-    struct batch_part *last = &batch->parts[batch->part_count - 1];
-    if (!last->is_fill) last->count = batch->index_count - last->first;
-}
-
 void batch_flush(struct batch *batch)
 {
-    close_part(batch);
     if (batch->part_count > 0) {
         glBindVertexArray(batch->array);
         glBindBuffer(GL_ARRAY_BUFFER, batch->vertex_buffer);
@@ -102,7 +91,7 @@ void batch_flush(struct batch *batch)
         glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
         for (const struct batch_part *part = batch->parts; part < batch->parts + batch->part_count; part++) {
             gl_scissor(part->scissor, batch->height);
-            if (part->is_fill) {
+            if (part->fill) {
                 gl_clear(part->fill);
             } else if (part->count > 0) {
                 const void *offset = (const void *)((size_t)part->first * sizeof *batch->indices);
@@ -119,7 +108,6 @@ void batch_flush(struct batch *batch)
 /// Starts a new part; there must be room.
 static struct batch_part *open_part(struct batch *batch)
 {
-    close_part(batch);
     if (batch->part_count == BATCH_PARTS) batch_flush(batch);
     struct batch_part *part = &batch->parts[batch->part_count++];
     *part = (struct batch_part){.scissor = batch->scissor, .first = batch->index_count};
@@ -133,7 +121,6 @@ static void fill(struct batch *batch, struct area area, uint32_t color)
     if (area_empty(visible)) return;
     struct batch_part *part = open_part(batch);
     part->scissor = visible;
-    part->is_fill = true;
     part->fill = color;
 }
 
@@ -143,7 +130,7 @@ static uint32_t reserve(struct batch *batch, int vertices, int indices)
     if (vertices > BATCH_VERTICES - batch->vertex_count || indices > BATCH_INDICES - batch->index_count)
         batch_flush(batch);
     const struct batch_part *last = batch->part_count ? &batch->parts[batch->part_count - 1] : NULL;
-    if (!last || last->is_fill || !area_same(last->scissor, batch->scissor)) open_part(batch);
+    if (!last || last->fill || !area_same(last->scissor, batch->scissor)) open_part(batch);
     return (uint32_t)batch->vertex_count;
 }
 
@@ -159,6 +146,7 @@ static void add_triangle(struct batch *batch, uint32_t a, uint32_t b, uint32_t c
     out[1] = b;
     out[2] = c;
     batch->index_count += 3;
+    batch->parts[batch->part_count - 1].count += 3;
 }
 
 // --- filled shapes
@@ -254,27 +242,23 @@ static void add_rectangle(struct batch *batch, const float corners[4], struct ar
     }
 }
 
-struct point {
-    float x, y;
-};
-
 /// How far point i moves if both its edges move out by one pixel: the mitre of the normals.
-static struct point outward(const struct point *points, int count, int i, float side)
+static vec2s outward(const vec2s *points, int count, int i, float side)
 {
-    struct point before = points[(i + count - 1) % count], p = points[i], after = points[(i + 1) % count];
+    vec2s before = points[(i + count - 1) % count], p = points[i], after = points[(i + 1) % count];
     float a = side / hypotf(p.x - before.x, p.y - before.y), b = side / hypotf(after.x - p.x, after.y - p.y);
-    struct point n = {(p.y - before.y) * a, (before.x - p.x) * a}, m = {(after.y - p.y) * b, (p.x - after.x) * b};
+    vec2s n = {{(p.y - before.y) * a, (before.x - p.x) * a}}, m = {{(after.y - p.y) * b, (p.x - after.x) * b}};
     float stretch = 1.0f / fmaxf(1.0f + n.x * m.x + n.y * m.y, 0.25f);
-    return (struct point){(n.x + m.x) * stretch, (n.y + m.y) * stretch};
+    return (vec2s){{(n.x + m.x) * stretch, (n.y + m.y) * stretch}};
 }
 
 /// A convex polygon of `count` points in logical pixels.
 static void add_convex(struct batch *batch, const float *xy, int count, float scale, uint32_t color)
 {
-    struct point points[CONVEX_MAX];
+    vec2s points[CONVEX_MAX];
     int n = 0; // in device pixels, without coinciding neighbours
     for (int i = 0; i < count && n < CONVEX_MAX; i++) {
-        struct point p = {xy[2 * i] * scale, xy[2 * i + 1] * scale};
+        vec2s p = {{xy[2 * i] * scale, xy[2 * i + 1] * scale}};
         if (n && hypotf(p.x - points[n - 1].x, p.y - points[n - 1].y) < 0.01f) continue;
         points[n++] = p;
     }
@@ -282,13 +266,13 @@ static void add_convex(struct batch *batch, const float *xy, int count, float sc
     if (n < 3) return;
     float area = 0.0f; // twice the signed one, whose sign gives the winding
     for (int i = 0; i < n; i++) {
-        struct point a = points[i], b = points[(i + 1) % n];
+        vec2s a = points[i], b = points[(i + 1) % n];
         area += (a.x - points[0].x) * (b.y - points[0].y) - (b.x - points[0].x) * (a.y - points[0].y);
     }
     if (area == 0.0f) return;
     uint32_t base = reserve(batch, 2 * n, 9 * n - 6);
     for (int i = 0; i < n; i++) {
-        struct point out = outward(points, n, i, area > 0.0f ? 1.0f : -1.0f);
+        vec2s out = outward(points, n, i, area > 0.0f ? 1.0f : -1.0f);
         struct batch_vertex inner = shape_vertex(points[i].x - 0.5f * out.x, points[i].y - 0.5f * out.y, color);
         struct batch_vertex outer = shape_vertex(points[i].x + 0.5f * out.x, points[i].y + 0.5f * out.y, color);
         outer.across = 1.0f;

@@ -22,8 +22,7 @@ enum { BATCH_VERTICES = 1 << 16, BATCH_INDICES = 3 << 16, BATCH_PARTS = 512 };
 struct batch_part {
     struct area scissor;
     int first, count;
-    bool is_fill;
-    uint32_t fill;
+    uint32_t fill; ///< 0: triangles
 };
 
 /// Collects triangles on the CPU.

@@ -4,18 +4,6 @@
 #include "model/adjacency.h"
 #include <stdlib.h>
 
-static void allocate(struct posed *mesh, size_t vertices, size_t indices, size_t parts)
-{
-    *mesh = (struct posed){.map_coordinate = -1};
-    mesh->indices = pool_take(&mesh->pool, indices, sizeof *mesh->indices);
-    mesh->neighbours = pool_take(&mesh->pool, indices, sizeof *mesh->neighbours);
-    mesh->place = pool_take(&mesh->pool, vertices, sizeof *mesh->place);
-    mesh->normal = pool_take(&mesh->pool, vertices, sizeof *mesh->normal);
-    mesh->looks = pool_take(&mesh->pool, vertices, sizeof *mesh->looks);
-    mesh->front = pool_take(&mesh->pool, indices / 3, sizeof *mesh->front);
-    mesh->parts = pool_take(&mesh->pool, parts, sizeof *mesh->parts);
-}
-
 void posed_free(struct posed *mesh)
 {
     pool_free(&mesh->pool);
@@ -100,11 +88,17 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
         parts += (size_t)shown->part_count;
         for (int p = 0; p < shown->part_count; p++) indices += (size_t)shown->parts[p].index_count;
     }
-    *mesh = (struct posed){0};
+    *mesh = (struct posed){.map_coordinate = -1};
     if (!need_has_room(vertices * (2 * sizeof *mesh->place + sizeof *mesh->looks) +
                        indices * 8 * sizeof *mesh->neighbours))
         return;
-    allocate(mesh, vertices, indices, parts);
+    mesh->indices = pool_take(&mesh->pool, indices, sizeof *mesh->indices);
+    mesh->neighbours = pool_take(&mesh->pool, indices, sizeof *mesh->neighbours);
+    mesh->place = pool_take(&mesh->pool, vertices, sizeof *mesh->place);
+    mesh->normal = pool_take(&mesh->pool, vertices, sizeof *mesh->normal);
+    mesh->looks = pool_take(&mesh->pool, vertices, sizeof *mesh->looks);
+    mesh->front = pool_take(&mesh->pool, indices / 3, sizeof *mesh->front);
+    mesh->parts = pool_take(&mesh->pool, parts, sizeof *mesh->parts);
     for (int n = 0; n < gltf->node_count; n++) {
         const int from = mesh->part_count;
         if (gltf->nodes[n].mesh < 0) continue;
@@ -154,13 +148,6 @@ static int figure_first(const struct posed *mesh, const struct posed_part *part,
     return at;
 }
 
-static int first_of(const struct posed *mesh, int node)
-{
-    int p = 0;
-    while (p < mesh->part_count && mesh->parts[p].node != node) p++;
-    return p;
-}
-
 bool posed_map(struct posed *mesh, const struct stage_model *shown)
 {
     const struct figure *figure = shown->posed.figure;
@@ -170,7 +157,8 @@ bool posed_map(struct posed *mesh, const struct stage_model *shown)
         return false;
     mesh->map_coordinate = map;
     mesh->map_axis = axis;
-    const int first = figure ? first_of(mesh, figure->character.node) : mesh->part_count;
+    int first = figure ? 0 : mesh->part_count;
+    while (first < mesh->part_count && mesh->parts[first].node != figure->character.node) first++;
     if (figure) mesh->map_figure = figure->id, mesh->map_version = figure->version;
     for (int p = first; p < mesh->part_count && mesh->parts[p].node == mesh->parts[first].node; p++) {
         struct posed_part *part = &mesh->parts[p];

@@ -146,7 +146,6 @@ struct corner {
 /// Background, ground and contact shadows: a few quads of one program.
 struct stage_flat {
     GLuint vertex_array, vertices;
-    struct stage_colors colors;
     int quads;
     struct corner corners[MAX_QUADS * FLAT_CORNERS];
 };
@@ -174,13 +173,6 @@ static void add_disc(struct stage_flat *flat, mat4s clip_from_world, float x, fl
     flat->quads++;
 }
 
-static void set_srgb(GLint location, uint32_t color)
-{
-    struct corner corner;
-    set_color(&corner, color, 1.0f);
-    glUniform3fv(location, 1, corner.color);
-}
-
 // --- meshes on the GPU
 
 /// Attributes of stage_skirt.vert.
@@ -195,11 +187,12 @@ static void set_look_attributes(size_t stride, size_t offset)
     gl_attribute(POSED_COVER, 1, GL_FLOAT, stride, offset + offsetof(struct posed_look, cover));
 }
 
-/// These return the number of uploaded bytes.
-static long upload_mesh(struct posed *mesh)
+/// Uploads a mesh but for its vertices' places, which change, and its pictures and samplers. Returns the number of bytes.
+static long upload_mesh(struct posed *mesh, const struct gltf *gltf)
 {
     const size_t vertices = (size_t)mesh->vertex_count, stride = sizeof *mesh->looks;
-    const size_t bytes = (size_t)mesh->index_count * sizeof *mesh->indices;
+    const size_t index_bytes = (size_t)mesh->index_count * sizeof *mesh->indices;
+    long bytes = (long)(vertices * stride + index_bytes);
     glGenVertexArrays(1, &mesh->vertex_array);
     glBindVertexArray(mesh->vertex_array);
     mesh->moving_buffer = gl_buffer(GL_ARRAY_BUFFER, 2 * vertices * sizeof *mesh->place, NULL, GL_STREAM_DRAW);
@@ -207,28 +200,36 @@ static long upload_mesh(struct posed *mesh)
     gl_attribute(POSED_NORMAL, 3, GL_FLOAT, 0, vertices * sizeof *mesh->place);
     mesh->look_buffer = gl_buffer(GL_ARRAY_BUFFER, vertices * stride, mesh->looks, GL_STATIC_DRAW);
     set_look_attributes(stride, 0);
-    mesh->index_buffer = gl_buffer(GL_ELEMENT_ARRAY_BUFFER, bytes, mesh->indices, GL_STATIC_DRAW);
+    mesh->index_buffer = gl_buffer(GL_ELEMENT_ARRAY_BUFFER, index_bytes, mesh->indices, GL_STATIC_DRAW);
     glBindVertexArray(0);
-    return (long)(vertices * stride + bytes);
-}
 
-static long upload_places(const struct posed *mesh)
-{
-    const GLsizeiptr half = (GLsizeiptr)((size_t)mesh->vertex_count * sizeof *mesh->place);
-    glBindBuffer(GL_ARRAY_BUFFER, mesh->moving_buffer);
-    glBufferData(GL_ARRAY_BUFFER, 2 * half, NULL, GL_STREAM_DRAW);
-    glBufferSubData(GL_ARRAY_BUFFER, 0, half, mesh->place);
-    glBufferSubData(GL_ARRAY_BUFFER, half, half, mesh->normal);
-    return 2 * (long)half;
-}
-
-/// Skips a picture that could not be decoded, or is too large for the driver.
-static long upload_picture(GLuint *picture, const struct gltf_image *image)
-{
-    const int largest = gl_largest_texture();
-    if (!image->pixels || image->width > largest || image->height > largest) return 0;
-    *picture = gl_picture(image->pixels, image->width, image->height);
-    return 4L * image->width * image->height;
+    mesh->picture_count = gltf->image_count;
+    mesh->sampler_count = gltf->material_count;
+    mesh->pictures = pool_take(&mesh->pool, (size_t)gltf->image_count, sizeof *mesh->pictures);
+    mesh->samplers = pool_take(&mesh->pool, (size_t)gltf->material_count, sizeof *mesh->samplers);
+    glGenSamplers(gltf->material_count, mesh->samplers);
+    for (int i = 0; i < gltf->image_count; i++) {
+        const struct gltf_image *image = &gltf->images[i];
+        const int largest = gl_largest_texture();
+        if (!image->pixels || image->width > largest || image->height > largest) continue; // it could not be decoded
+        mesh->pictures[i] = gl_picture(image->pixels, image->width, image->height);
+        bytes += 4L * image->width * image->height;
+    }
+    for (int m = 0; m < gltf->material_count; m++) {
+        const struct gltf_sampler *sampler = &gltf->materials[m].sampler;
+        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_WRAP_S, sampler->wrap[0]);
+        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_WRAP_T, sampler->wrap[1]);
+        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_MIN_FILTER, sampler->far);
+        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_MAG_FILTER, sampler->near);
+    }
+    for (int p = 0; p < mesh->part_count; p++) {
+        struct posed_part *part = &mesh->parts[p];
+        if (part->material < 0) continue;
+        const int image = gltf->materials[part->material].image;
+        part->picture = image >= 0 ? mesh->pictures[image] : 0;
+        part->sampler = mesh->samplers[part->material];
+    }
+    return bytes;
 }
 
 /// Also frees its memory.
@@ -255,11 +256,6 @@ struct kept {
     uint64_t id; ///< of the file; 0: none
     long used;   ///< number of the last picture that showed it
     struct posed mesh;
-};
-
-/// A mesh in this picture.
-struct shown {
-    const struct posed *mesh;
     float shade[2]; ///< heights: the ground's, and how far above it the ground's shade reaches
     float blink;
 };
@@ -275,7 +271,7 @@ struct stage_renderer {
     struct program programs[PROGRAMS];
     struct stage_flat flat;
     struct kept kept[MAX_KEPT];
-    struct shown shown[STAGE_MAX_MODELS];
+    const struct kept *shown[STAGE_MAX_MODELS]; ///< in this picture
     int shown_count;
     long clock; ///< counts pictures
     GLuint white;
@@ -310,32 +306,10 @@ static long add_model(struct stage_renderer *stage, const struct stage_model *sh
     const struct gltf *gltf = posed->gltf;
     struct kept *kept = find_mesh(stage, gltf->id);
     struct posed *mesh = &kept->mesh;
-    const bool is_new = kept->id == 0;
     long bytes = 0;
-    if (is_new) {
+    if (kept->id == 0) {
         posed_from_gltf(mesh, gltf);
-        bytes += upload_mesh(mesh);
-        mesh->picture_count = gltf->image_count;
-        mesh->sampler_count = gltf->material_count;
-        mesh->pictures = pool_take(&mesh->pool, (size_t)gltf->image_count, sizeof *mesh->pictures);
-        mesh->samplers = pool_take(&mesh->pool, (size_t)gltf->material_count, sizeof *mesh->samplers);
-        glGenSamplers(gltf->material_count, mesh->samplers);
-    }
-    for (int i = 0; is_new && i < gltf->image_count; i++)
-        bytes += upload_picture(&mesh->pictures[i], &gltf->images[i]);
-    for (int m = 0; is_new && m < gltf->material_count; m++) {
-        const struct gltf_sampler *sampler = &gltf->materials[m].sampler;
-        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_WRAP_S, sampler->wrap[0]);
-        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_WRAP_T, sampler->wrap[1]);
-        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_MIN_FILTER, sampler->far);
-        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_MAG_FILTER, sampler->near);
-    }
-    for (int p = 0; is_new && p < mesh->part_count; p++) {
-        struct posed_part *part = &mesh->parts[p];
-        if (part->material < 0) continue;
-        const int image = gltf->materials[part->material].image;
-        part->picture = image >= 0 ? mesh->pictures[image] : 0;
-        part->sampler = mesh->samplers[part->material];
+        bytes += upload_mesh(mesh, gltf);
     }
     if (posed_map(mesh, shown)) {
         const size_t size = (size_t)mesh->vertex_count * sizeof *mesh->looks;
@@ -344,13 +318,18 @@ static long add_model(struct stage_renderer *stage, const struct stage_model *sh
         bytes += (long)size;
     }
     posed_pose(mesh, shown, eye);
+    const GLsizeiptr half = (GLsizeiptr)((size_t)mesh->vertex_count * sizeof *mesh->place);
+    glBindBuffer(GL_ARRAY_BUFFER, mesh->moving_buffer);
+    glBufferData(GL_ARRAY_BUFFER, 2 * half, NULL, GL_STREAM_DRAW);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, half, mesh->place);
+    glBufferSubData(GL_ARRAY_BUFFER, half, half, mesh->normal);
     kept->id = gltf->id;
     kept->used = stage->clock;
-    stage->shown[stage->shown_count++] =
-        (struct shown){.mesh = mesh,
-                       .shade = {posed->ground, shown->dusk},
-                       .blink = gltf->weight_count > 0 && !posed->figure ? posed->pose->weights[0] : 0.0f};
-    return bytes + upload_places(mesh);
+    kept->shade[0] = posed->ground;
+    kept->shade[1] = shown->dusk;
+    kept->blink = gltf->weight_count > 0 && !posed->figure ? posed->pose->weights[0] : 0.0f;
+    stage->shown[stage->shown_count++] = kept;
+    return bytes + 2 * (long)half;
 }
 
 // --- the picture of the meshes
@@ -448,9 +427,10 @@ static void draw_meshes(const struct stage_renderer *stage, const struct stage_v
     for (enum stage_program which = 0; which < PROGRAM_FLAT; which++) {
         const struct program *program = &stage->programs[which];
         for (int s = 0; s < stage->shown_count; s++) {
-            const struct shown *shown = &stage->shown[s];
-            int p = shown->mesh->part_count;
-            while (--p >= 0 && program_of(&shown->mesh->parts[p], second) != which) continue;
+            const struct kept *shown = stage->shown[s];
+            const struct posed *mesh = &shown->mesh;
+            int p = mesh->part_count;
+            while (--p >= 0 && program_of(&mesh->parts[p], second) != which) continue;
             if (p < 0) continue;
             glUseProgram(program->name);
             glUniformMatrix4fv(program->at[AT_CLIP_FROM_WORLD], 1, GL_FALSE, clip_from_world.raw[0]);
@@ -460,18 +440,18 @@ static void draw_meshes(const struct stage_renderer *stage, const struct stage_v
             glUniform1f(program->at[AT_SEAM], seam);
             glUniform2fv(program->at[AT_SHADE], 1, shown->shade);
             glUniform1f(program->at[AT_BLINK], shown->blink);
-            glUniform1f(program->at[AT_LINE], shown->mesh->map_coordinate >= 0 ? PHASE_LINE * scale : 0.0f);
-            glBindVertexArray(shown->mesh->vertex_array);
+            glUniform1f(program->at[AT_LINE], mesh->map_coordinate >= 0 ? PHASE_LINE * scale : 0.0f);
+            glBindVertexArray(mesh->vertex_array);
             if (second) {
                 // Masked surfaces again, because their edges fade over the background.
-                draw_parts(stage, shown->mesh, which, MASKED, MASKED);
-                draw_skirts(stage, shown->mesh, which, view->eye, seam);
+                draw_parts(stage, mesh, which, MASKED, MASKED);
+                draw_skirts(stage, mesh, which, view->eye, seam);
                 continue;
             }
             glEnable(GL_BLEND);
-            draw_parts(stage, shown->mesh, which, SOLID, MASKED);
+            draw_parts(stage, mesh, which, SOLID, MASKED);
             glDepthMask(GL_FALSE);
-            draw_parts(stage, shown->mesh, which, BLENDED, BLENDED);
+            draw_parts(stage, mesh, which, BLENDED, BLENDED);
             glDepthMask(GL_TRUE);
             glDisable(GL_BLEND);
         }
@@ -575,7 +555,6 @@ void stage_upload(struct stage_renderer *stage, const struct stage_view *view, l
     const float ground = lowest_ground(view);
     const mat4s clip_from_world = clip_from_world_of(view);
     flat->quads = 0;
-    flat->colors = view->colors;
     for (int c = 0; c < FLAT_CORNERS; c++) {
         flat->corners[flat->quads * FLAT_CORNERS + c] =
             (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
@@ -592,18 +571,17 @@ void stage_upload(struct stage_renderer *stage, const struct stage_view *view, l
     *bytes += flat_bytes;
 }
 
-void stage_draw(struct stage_renderer *stage, const struct stage_view *view, int x, int y, int width, int height)
+/// Background, ground and shadows cover the viewport.
+static void draw_flat(struct stage_renderer *stage, const struct stage_view *view, int x, int y, int width,
+                      int height)
 {
-    const float scale = (float)height / view->viewport.h, seam = 2.0f / (view->projection[5] * (float)height);
     const struct program *program = &stage->programs[view->behind.pixels ? PROGRAM_BACKED : PROGRAM_FLAT];
-    glViewport(x, y, width, height);
-    glEnable(GL_DEPTH_TEST);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-
-    // Background, ground and shadows cover the viewport.
+    struct corner top, bottom;
+    set_color(&top, view->colors.top, 1.0f);
+    set_color(&bottom, view->colors.bottom, 1.0f);
     glUseProgram(program->name);
-    set_srgb(program->at[AT_TOP], stage->flat.colors.top);
-    set_srgb(program->at[AT_BOTTOM], stage->flat.colors.bottom);
+    glUniform3fv(program->at[AT_TOP], 1, top.color);
+    glUniform3fv(program->at[AT_BOTTOM], 1, bottom.color);
     glUniform4f(program->at[AT_PLACE], (float)x, (float)y, 1.0f / (float)width, 1.0f / (float)height);
     if (view->behind.pixels) { // as large as fits
         const float aspect = (float)width / (float)height * (float)view->behind.height / (float)view->behind.width;
@@ -621,26 +599,26 @@ void stage_draw(struct stage_renderer *stage, const struct stage_view *view, int
     glDisable(GL_BLEND);
     glDepthRange(0, 1);
     glBindVertexArray(0);
+}
 
+void stage_draw(struct stage_renderer *stage, const struct stage_view *view, int x, int y, int width, int height,
+                bool transparent)
+{
+    const float scale = (float)height / view->viewport.h, seam = 2.0f / (view->projection[5] * (float)height);
+    glViewport(x, y, width, height);
+    glEnable(GL_DEPTH_TEST);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (transparent)
+        glClear(GL_DEPTH_BUFFER_BIT);
+    else
+        draw_flat(stage, view, x, y, width, height);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     draw_meshes(stage, view, scale, 0.0f);
     // Anti-aliased edges without multisampling: skirts (draw/posed.h) fade out over the background or the animal itself.
     glEnable(GL_BLEND);
-    draw_meshes(stage, view, scale, seam);
+    if (!transparent) draw_meshes(stage, view, scale, seam);
     glDisable(GL_BLEND);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_DEPTH_TEST);
-}
-
-void stage_draw_rigs(struct stage_renderer *stage, const struct stage_view *view, int width, int height)
-{
-    glViewport(0, 0, width, height);
-    glEnable(GL_DEPTH_TEST);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    glDepthFunc(GL_LESS);
-    glEnable(GL_CULL_FACE);
-    draw_meshes(stage, view, (float)height / view->viewport.h, 0.0f);
     glDisable(GL_CULL_FACE);
     glDisable(GL_DEPTH_TEST);
 }

@@ -27,11 +27,9 @@ void stage_renderer_destroy(struct stage_renderer *renderer);
 void stage_upload(struct stage_renderer *renderer, const struct stage_view *view, long *bytes);
 
 /// Draws the upload into a rectangle of the framebuffer, in device pixels from the bottom left as in GL. The caller sets the scissor.
-/// Clears depth. Leaves depth test, culling and blending off.
-void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height);
-
-/// Draws only rigs, over a whole framebuffer, without the soft edges that blend into the background.
-void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *view, int width, int height);
+/// Clears depth. Leaves depth test, culling and blending off. Transparent: only rigs, without the soft edges that blend into the background.
+void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height,
+                bool transparent);
 
 // Where the stage moves on the screen, so that the rest need not be redrawn.
 
