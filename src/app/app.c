@@ -1,6 +1,7 @@
 /// Starts the app, runs its frames and ends it. A frame: input from window, replay or demo, the document's part, drawing, log.
 #include "app/state.h"
 #include "base/need.h"
+#include "base/png.h"
 #include "base/progress.h"
 #include "platform/process.h"
 #include "rig/import.h"
@@ -11,6 +12,8 @@
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 // --- the document's part of a frame: edit, solve, pose, show
@@ -92,19 +95,13 @@ static bool has_room(const struct app *app, double scale)
            (double)app->display.height / scale >= least_height(app) && (double)app->display.scale * scale <= SHARPEST;
 }
 
-/// The chosen scale, or the largest step below it that fits. A window too small for any keeps its scale.
-static double fitting_scale(const struct app *app)
-{
-    const double most = app->figures.ui_scale;
-    if (most <= 1 || has_room(app, most)) return most;
-    int step = STEPS - 1;
-    while (scale_steps[step] > 1 && (scale_steps[step] > most || !has_room(app, scale_steps[step]))) step--;
-    return scale_steps[step];
-}
-
 void ui_scale_fit(struct app *app)
 {
-    app->ui_scale_shown = fitting_scale(app);
+    // The chosen scale, or the largest step below it that fits. A window too small for any keeps its scale.
+    const double most = app->figures.ui_scale;
+    int step = STEPS - 1;
+    while (scale_steps[step] > 1 && (scale_steps[step] > most || !has_room(app, scale_steps[step]))) step--;
+    app->ui_scale_shown = most <= 1 || has_room(app, most) ? most : scale_steps[step];
     const float shown = (float)app->ui_scale_shown;
     editor_resize(app->work.editor, fmaxf(app->display.width / shown, UI_LEAST_WIDTH),
                   fmaxf(app->display.height / shown, UI_LEAST_HEIGHT), app->display.scale * shown);
@@ -140,6 +137,7 @@ bool ui_scale_step(struct app *app, int direction, struct error *error)
 
 // --- one frame
 
+enum { MAX_CLIPBOARD = 16 << 20 }; ///< bytes
 static const double replay_dt = 1.0 / 60;
 static const double idle_wait = 0.5;
 static const double longest_step = 1; ///< seconds; playback does not skip ahead after a longer stall
@@ -209,9 +207,14 @@ static bool take_input(struct app *app)
     app->row.allocations = allocation_count();
 
     // Clipboard text that the editor asked for comes as an event, so that it is recorded.
-    const char *text = app->paste ? app_clipboard_text(app) : NULL;
+    const char *text = app->paste ? platform_clipboard(app->platform) : "";
+    if (app->paste && (!text || !*text))
+        editor_message(app->work.editor, false, "The clipboard has no text.");
+    else if (app->paste && strlen(text) > MAX_CLIPBOARD)
+        editor_message(app->work.editor, true, "The clipboard holds more than 16 MB, too much for knots.");
+    else if (app->paste)
+        handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
     app->paste = false;
-    if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
     for (int i = 0; i < count; i++) {
         const enum event_kind kind = events[i].kind;
         if (app->replay && kind != EVENT_EXPOSE && kind != EVENT_CLOSE) continue;
@@ -247,12 +250,17 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
     return input;
 }
 
-void app_draw_exactly(struct app *app)
+bool app_screenshot(struct app *app, const char *path, struct error *error)
 {
-    if (!app->draw || resolution_is_exact(&app->resolution)) return;
-    struct draw_input input = draw_input(app, 1);
+    if (!app->draw) return fail(error, ERROR_ENVIRONMENT, "%s: nothing is drawn, so there is no picture", path);
+    const struct draw_input input = draw_input(app, 1);
     struct draw_cost cost;
-    draw_frame(app->draw, &input, &cost);
+    if (!resolution_is_exact(&app->resolution)) draw_frame(app->draw, &input, &cost);
+    unsigned char *pixels = need(4 * (size_t)input.width * (size_t)input.height, 1);
+    draw_read(input.width, input.height, pixels);
+    const bool done = png_write(path, input.width, input.height, pixels, error);
+    free(pixels);
+    return done;
 }
 
 void app_frame(struct app *app)
@@ -400,26 +408,19 @@ static bool open_log(struct app *app, struct error *error)
     return true;
 }
 
-/// The frames of a run.
-struct run {
-    struct app *app;
-    long frames; ///< 0: unlimited
-    bool timed;
-};
-
 /// Makes a frame; false after the last.
 static bool run_frame(void *user)
 {
-    const struct run *run = user;
-    struct app *app = run->app;
+    struct app *app = user;
+    const bool timed = app->frames > 0 || app->options->log;
     if (app->options->turns) {
         turns_take();
         app->last_swap = NAN; // the other program's frame came between
     }
     app_frame(app);
-    if (app->frame == 1 && run->timed && !app->log && !open_log(app, &app->error)) app->failed = true;
+    if (app->frame == 1 && timed && !app->log && !open_log(app, &app->error)) app->failed = true;
     if (app->options->turns && !app->failed) turns_give();
-    return !app->quit && !app->failed && !process_was_told_to_end() && (run->frames == 0 || app->frame < run->frames);
+    return !app->quit && !app->failed && !process_was_told_to_end() && (app->frames == 0 || app->frame < app->frames);
 }
 
 /// Whether a person, not a script, is working.
@@ -556,11 +557,11 @@ int app_run(const struct app_options *options, struct error *error)
     if (options->gl_debug) platform_debug_gl();
     bool good = start_app(&app, error);
     if (good) {
-        long frames = options->frames                    ? options->frames
-                      : app.replay                       ? replay_get_header(app.replay)->frames
-                      : platform_is_window(app.platform) ? 0
-                                                         : HEADLESS_FRAMES;
-        platform_run(app.platform, run_frame, &(struct run){&app, frames, frames > 0 || options->log});
+        app.frames = options->frames                    ? options->frames
+                     : app.replay                       ? replay_get_header(app.replay)->frames
+                     : platform_is_window(app.platform) ? 0
+                                                        : HEADLESS_FRAMES;
+        platform_run(app.platform, run_frame, &app);
         good = !app.failed;
         if (!good) *error = app.error;
 

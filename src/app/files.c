@@ -7,7 +7,6 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/need.h"
-#include "base/png.h"
 #include "editor/editor.h"
 #include "rig/import.h"
 #include "scene/load.h"
@@ -360,20 +359,6 @@ static bool save(struct app *app, const char *path, struct error *error)
     return true;
 }
 
-bool app_screenshot(struct app *app, const char *path, struct error *error)
-{
-    int width, height;
-    float scale;
-    if (!app->draw) return fail(error, ERROR_ENVIRONMENT, "%s: nothing is drawn, so there is no picture", path);
-    platform_size(app->platform, &width, &height, &scale);
-    unsigned char *pixels = need(4 * (size_t)width * (size_t)height, 1);
-    app_draw_exactly(app);
-    draw_read(width, height, pixels);
-    bool done = png_write(path, width, height, pixels, error);
-    free(pixels);
-    return done;
-}
-
 /// F12: saves to the first free wiggly-NNNN.png, in the scene's folder, else the working folder.
 static bool take_picture(struct app *app, struct error *error)
 {
@@ -551,20 +536,6 @@ static void carry_out(void *user, const struct request *request)
     const bool done = do_request(app, request, &error);
     const bool goes_on = done && request->kind == REQUEST_EXPORT;
     if (!goes_on) editor_answer(app->work.editor, request, done, error.text);
-}
-
-enum { MAX_CLIPBOARD = 16 << 20 }; ///< bytes
-
-const char *app_clipboard_text(struct app *app)
-{
-    const char *text = platform_clipboard(app->platform);
-    if (!text || !*text) {
-        editor_message(app->work.editor, false, "The clipboard has no text.");
-    } else if (strlen(text) > MAX_CLIPBOARD) {
-        editor_message(app->work.editor, true, "The clipboard holds more than 16 MB, too much for knots.");
-        text = NULL;
-    }
-    return text && *text ? text : NULL;
 }
 
 static int compare_names(const void *a, const void *b) { return strcmp(a, b); }

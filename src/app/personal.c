@@ -15,6 +15,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 /// The settings other than files.
 struct choices {
@@ -230,7 +231,7 @@ void personal_update(struct app *app)
     struct autosave *autosave = app->personal->autosave;
     const struct autosave_work work = work_of(app);
     if (autosave && !autosave_update(autosave, &work, clock_now(), &error)) complain(app, &error);
-    app->figures.unkept = !work.saved && (!autosave || autosave_fails(autosave));
+    app->figures.unkept = !work.saved && (!autosave || autosave->complained);
 }
 
 bool personal_is_behind(const struct app *app)
@@ -259,7 +260,7 @@ void personal_forget(struct app *app)
 {
     struct personal *personal = app->personal;
     if (!personal || !personal->is_offered) return;
-    recovery_remove(&personal->offered.slot);
+    unlink(personal->offered.slot.path);
     recovery_release(&personal->offered.slot);
     offer(app);
 }
@@ -270,7 +271,7 @@ const char *personal_rescue(struct app *app)
     if (!app->personal || !app->personal->autosave) return NULL;
     struct autosave_work work = work_of(app);
     bool kept = autosave_flush(app->personal->autosave, &work, &error);
-    return kept ? autosave_path(app->personal->autosave) : NULL;
+    return kept ? app->personal->autosave->slot.path : NULL;
 }
 
 void personal_end(struct app *app, bool keep)

@@ -6,6 +6,8 @@
 #include "base/file.h"
 #include "editor/editor.h"
 #include "scene/load.h"
+#include <stdatomic.h>
+#include <threads.h>
 #include <time.h>
 
 // --- recovery files
@@ -38,13 +40,24 @@ struct recovery_entry {
 /// of such files. false if there is none.
 bool recovery_find(const char *folder, const char *of, struct recovery_entry *entry, int *count);
 
-void recovery_remove(const struct recovery_slot *slot);
-
 // --- autosave
 
 /// A recovery file holds unsaved work at most two seconds after an edit. A thread writes a copy of the document that shares
 /// splines and rigs with it, so no frame waits for the disk.
-struct autosave;
+struct autosave {
+    struct recovery_slot slot;
+    uint64_t revision; ///< of the last write
+    double begun;      ///< time of its start
+    bool has_file, complained;
+
+    bool writes;               ///< a write is unreported
+    struct document *document; ///< owned by the thread until `ended`, like the next two
+    struct scene_origin origin;
+    struct error error;
+    thrd_t thread;
+    bool threaded; ///< must be joined
+    atomic_bool ended;
+};
 
 struct autosave_work {
     const struct document *document;
@@ -64,16 +77,11 @@ bool autosave_update(struct autosave *autosave, const struct autosave_work *work
 /// Whether unsaved work is not yet being written: then keep calling autosave_update() at frame rate.
 bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *work);
 
-/// Whether the last write failed: the recovery file is missing or old.
-bool autosave_fails(const struct autosave *autosave);
-
 /// Writes the work in the calling thread, and returns when it is on disk.
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error);
 
 /// Moves to another slot and its file; deletes the old file and releases its slot.
 void autosave_move(struct autosave *autosave, const struct recovery_slot *slot);
-
-const char *autosave_path(const struct autosave *autosave);
 
 /// Waits for the thread and releases the slot; deletes the file unless `keep`.
 void autosave_close(struct autosave *autosave, bool keep);

@@ -6,13 +6,11 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <threads.h>
 #include <unistd.h>
 
 /// Never deletes the lock file: otherwise two programs could lock two files of the same name.
@@ -90,24 +88,7 @@ bool recovery_find(const char *folder, const char *of, struct recovery_entry *en
     return true;
 }
 
-void recovery_remove(const struct recovery_slot *slot) { unlink(slot->path); }
-
 static const double INTERVAL = 1; ///< least seconds between the starts of two writes
-
-struct autosave {
-    struct recovery_slot slot;
-    uint64_t revision; ///< of the last write
-    double begun;      ///< time of its start
-    bool has_file, complained;
-
-    bool writes;               ///< a write is unreported
-    struct document *document; ///< owned by the thread until `ended`, like the next two
-    struct scene_origin origin;
-    struct error error;
-    thrd_t thread;
-    bool threaded; ///< must be joined
-    atomic_bool ended;
-};
 
 static struct scene_origin origin_of(const struct autosave_work *work)
 {
@@ -169,7 +150,7 @@ bool autosave_update(struct autosave *autosave, const struct autosave_work *work
         if (is_news) fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
     }
     if (work->saved) {
-        if (autosave->has_file) recovery_remove(&autosave->slot);
+        if (autosave->has_file) unlink(autosave->slot.path);
         autosave->has_file = false;
         autosave->revision = 0;
     } else if (autosave_is_behind(autosave, work) && now - autosave->begun >= INTERVAL) {
@@ -185,8 +166,6 @@ bool autosave_update(struct autosave *autosave, const struct autosave_work *work
     return !is_news;
 }
 
-bool autosave_fails(const struct autosave *autosave) { return autosave->complained; }
-
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error)
 {
     const struct scene_origin origin = origin_of(work);
@@ -198,59 +177,54 @@ bool autosave_flush(struct autosave *autosave, const struct autosave_work *work,
 void autosave_move(struct autosave *autosave, const struct recovery_slot *slot)
 {
     wait_for_write(autosave);
-    recovery_remove(&autosave->slot);
+    unlink(autosave->slot.path);
     recovery_release(&autosave->slot);
     autosave->slot = *slot;
     autosave->has_file = true;
 }
-
-const char *autosave_path(const struct autosave *autosave) { return autosave->slot.path; }
 
 void autosave_close(struct autosave *autosave, bool keep)
 {
     if (!autosave) return;
     wait_for_write(autosave);
     finish_write(autosave);
-    if (!keep) recovery_remove(&autosave->slot);
+    if (!keep) unlink(autosave->slot.path);
     recovery_release(&autosave->slot);
     free(autosave);
 }
 
-// --- the rescue: to the recovery file, or else to a new folder
-
-/// Makes the folder in the home folder, or else in the temporary directory, where nobody can have planted a link. Reports the first failure.
-static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
-{
-    const char *const folders[] = {getenv("HOME") ? getenv("HOME") : "", "/tmp"};
-    struct error other;
-    for (int i = 0; i < 2; i++) {
-        snprintf(path, size, "%s/wiggly-recovered-XXXXXX", folders[i]);
-        if (!mkdtemp(path)) {
-            fail(i ? &other : error, ERROR_ENVIRONMENT, "%s: %s", folders[i], strerror(errno));
-            continue;
-        }
-        const size_t length = strlen(path);
-        snprintf(path + length, size - length, "/untitled.json");
-        if (scene_save(app->work.document, path, i ? &other : error)) return true;
-        path[length] = '\0';
-        rmdir(path);
-    }
-    return false;
-}
+// --- the rescue
 
 void app_rescue(struct app *app, struct error *error)
 {
     char path[PATH_LIMIT];
-    struct error trouble = {0}, why = *error;
+    struct error trouble[2] = {0}, why = *error;
     if (app->replay || !app->work.document || history_is_saved(app->work.history))
         return; // a replay can be played again
-    const char *kept = personal_rescue(app);
+    const char *kept = personal_rescue(app), *home = getenv("HOME");
+
+    // Else to a new folder in the home folder, or in the temporary one, where nobody can have planted a link. The first failure counts.
+    const char *const folders[] = {home ? home : "", "/tmp"};
+    bool written = false;
+    for (int i = 0; !kept && i < 2; i++) {
+        snprintf(path, sizeof path, "%s/wiggly-recovered-XXXXXX", folders[i]);
+        if (!mkdtemp(path)) {
+            fail(&trouble[i], ERROR_ENVIRONMENT, "%s: %s", folders[i], strerror(errno));
+            continue;
+        }
+        const size_t length = strlen(path);
+        snprintf(path + length, sizeof path - length, "/untitled.json");
+        written = scene_save(app->work.document, path, &trouble[i]);
+        if (written) break;
+        path[length] = '\0';
+        rmdir(path);
+    }
     if (kept) {
         fail(error, why.kind, "%s; the unsaved scene is safe in %s, and the next start offers to recover it",
              why.text, kept);
-    } else if (write_somewhere(app, path, sizeof path, &trouble)) {
+    } else if (written) {
         fail(error, why.kind, "%s; the unsaved scene is in %s: open it to continue", why.text, path);
     } else {
-        fail(error, why.kind, "%s; the unsaved scene is lost: %s", why.text, trouble.text);
+        fail(error, why.kind, "%s; the unsaved scene is lost: %s", why.text, trouble[0].text);
     }
 }

@@ -159,20 +159,15 @@ int recent_list(const struct settings *settings, struct dialog_recent *files, in
     return count;
 }
 
+/// The choices of an export that suit any scene.
 static const struct {
     const char *key;
     size_t offset;
-} flags[] = {
-    {"export_signed", offsetof(struct export_wish, is_signed)},
-    {"export_all_clips", offsetof(struct export_wish, all_clips)},
-    {"export_transparent", offsetof(struct export_wish, transparent)},
-};
-
-static const struct {
-    const char *key;
-    size_t offset;
-    int most;
-} numbers[] = {
+    int most; ///< 0: a bool, else an int
+} wishes[] = {
+    {"export_signed", offsetof(struct export_wish, is_signed), 0},
+    {"export_all_clips", offsetof(struct export_wish, all_clips), 0},
+    {"export_transparent", offsetof(struct export_wish, transparent), 0},
     {"export_keys", offsetof(struct export_wish, keys), 1024},
     {"export_width", offsetof(struct export_wish, width), 8192},
     {"export_height", offsetof(struct export_wish, height), 8192},
@@ -180,18 +175,20 @@ static const struct {
 
 void export_memory_read(const struct settings *settings, const char *scene, struct export_memory *memory)
 {
-    char *wish = (char *)&memory->wish, open[PATH_LIMIT];
+    char open[PATH_LIMIT];
     *memory = (struct export_memory){.path = ""};
     read_string(json_object_get(settings->values, "export_path"), memory->path, sizeof memory->path);
     read_string(json_object_get(settings->values, "export_scene"), memory->scene, sizeof memory->scene);
     // The dialog knows the scene by the path it was opened with.
     if (path_resolve("", scene, open) && strcmp(open, memory->scene) == 0)
         snprintf(memory->scene, sizeof memory->scene, "%s", scene);
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
-        *(bool *)(void *)(wish + flags[i].offset) = settings_flag(settings, flags[i].key, false);
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-        const double value = settings_number(settings, numbers[i].key, 0);
-        *(int *)(void *)(wish + numbers[i].offset) = value >= 1 && value <= numbers[i].most ? (int)value : 0;
+    for (size_t i = 0; i < sizeof wishes / sizeof *wishes; i++) {
+        void *wish = (char *)&memory->wish + wishes[i].offset;
+        const double value = settings_number(settings, wishes[i].key, 0);
+        if (wishes[i].most == 0)
+            *(bool *)wish = settings_flag(settings, wishes[i].key, false);
+        else
+            *(int *)wish = value >= 1 && value <= wishes[i].most ? (int)value : 0;
     }
 }
 
@@ -205,11 +202,13 @@ static void write_path(struct settings *settings, const char *key, const char *p
 
 void export_memory_write(struct settings *settings, const struct request *request, const char *scene)
 {
-    const char *wish = (const char *)&request->wish;
     write_path(settings, "export_path", request->path);
     write_path(settings, "export_scene", scene);
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
-        settings_set_flag(settings, flags[i].key, *(const bool *)(const void *)(wish + flags[i].offset));
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
-        settings_set_number(settings, numbers[i].key, *(const int *)(const void *)(wish + numbers[i].offset));
+    for (size_t i = 0; i < sizeof wishes / sizeof *wishes; i++) {
+        const void *wish = (const char *)&request->wish + wishes[i].offset;
+        if (wishes[i].most == 0)
+            settings_set_flag(settings, wishes[i].key, *(const bool *)wish);
+        else
+            settings_set_number(settings, wishes[i].key, *(const int *)wish);
+    }
 }

@@ -142,6 +142,7 @@ struct app {
     double process_start; ///< on this clock
     double last_time, next_time, stats_time;
     long frame, stats_frame;
+    long frames;        ///< of the run; 0: unlimited
     bool shown_saved;   ///< in the window's title
     uint64_t described; ///< hash of the last platform_describe()
     bool fetches;       ///< no frame is drawn until the document's characters are there
@@ -244,12 +245,6 @@ void flesh_stop(struct app *app);
 bool app_place_file(const struct app *app, const char *path, char placed[PATH_LIMIT], struct error *error);
 /// Tells where a replay's file is.
 void app_tell_placed(struct app *app, const char *placed);
-
-/// The clipboard's text; NULL, with a message, if there is none or too much.
-const char *app_clipboard_text(struct app *app);
-
-/// Redraws the last frame if its stage had a lower resolution.
-void app_draw_exactly(struct app *app);
 
 /// Saves the last frame as PNG, at full resolution.
 bool app_screenshot(struct app *app, const char *path, struct error *error);

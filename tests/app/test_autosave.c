@@ -50,7 +50,7 @@ static void keeper_close(struct keeper *k)
 
 #define KEEPER_TEST(name) TEST_OF(struct keeper, k, keeper_open(k), keeper_close(k), name)
 
-static bool is_there(const struct autosave *autosave) { return access(autosave_path(autosave), F_OK) == 0; }
+static bool is_there(const struct autosave *autosave) { return access(autosave->slot.path, F_OK) == 0; }
 
 static struct autosave_work work_of(const struct keeper *k)
 {
@@ -92,7 +92,7 @@ KEEPER_TEST(when_a_recovery_file_is_written)
         update(k, rows[i].now);
         wait_a_moment();
         if (is_there(k->autosave) != rows[i].there) fail_msg("at %g s", rows[i].now);
-        if (i < 5) unlink(autosave_path(k->autosave)); // so that the next write shows
+        if (i < 5) unlink(k->autosave->slot.path); // so that the next write shows
     }
     history_mark_saved(k->world.history);
     update_until(k, 30.1, false);
@@ -117,14 +117,14 @@ KEEPER_TEST(work_is_left_behind)
     world_must(&k->world, edit_insert(&k->world, SWAY, 5, 5));
     const struct autosave_work work = work_of(k);
     assert_done(autosave_flush(k->autosave, &work, &error));
-    assert_int_equal(stat(autosave_path(k->autosave), &about), 0);
+    assert_int_equal(stat(k->autosave->slot.path, &about), 0);
     assert_int_equal(about.st_mode & 0777, 0600);
     assert_false(recovery_find(folder, NULL, &entry, NULL)); // the running app's own
     autosave_close(k->autosave, true);
     find(k, NULL, &entry);
     assert_string_equal(entry.origin.path, "/home/me/walk.json");
     k->autosave = open_autosave(); // claimed by the one that asks: others take a slot of their own
-    assert_string_not_equal(autosave_path(k->autosave), entry.slot.path);
+    assert_string_not_equal(k->autosave->slot.path, entry.slot.path);
     autosave_move(k->autosave, &entry.slot); // recovered: the file stays until the work is saved
     assert_true(is_there(k->autosave));
     history_mark_saved(k->world.history);
@@ -159,7 +159,7 @@ KEEPER_TEST(any_path_comes_back)
         find(k, path, &entry);
         assert_string_equal(entry.origin.path, path);
         assert_true(entry.origin.content == UINT64_MAX - 7);
-        recovery_remove(&entry.slot);
+        unlink(entry.slot.path);
         recovery_release(&entry.slot);
     }
     k->autosave = NULL;
@@ -217,7 +217,7 @@ TEST(the_newest_comes_first)
         assert_true(recovery_find(folder, NULL, &entry, &count));
         assert_int_equal(count, i + 1);
         assert_string_equal(entry.origin.path, left[i]);
-        recovery_remove(&entry.slot);
+        unlink(entry.slot.path);
         recovery_release(&entry.slot);
     }
 }
@@ -329,13 +329,13 @@ static void assert_kept(const struct large *l, const char *expected)
     char *data;
     size_t size;
     for (int i = 0; i < 12000 && !is_there(l->autosave); i++) wait_a_moment();
-    assert_done(file_read(autosave_path(l->autosave), (size_t)1 << 30, &data, &size, &error));
+    assert_done(file_read(l->autosave->slot.path, (size_t)1 << 30, &data, &size, &error));
     const size_t length = expected ? strlen(expected) : 0;
     if (expected && (size < length || strncmp(data, expected, length) != 0))
         fail_msg("the recovery file has another scene");
     assert_non_null(strstr(data + (expected ? length - 1 : 0), "\n  \"recovers\": { \"file\": "));
     free(data);
-    assert_int_equal(unlink(autosave_path(l->autosave)), 0);
+    assert_int_equal(unlink(l->autosave->slot.path), 0);
 }
 
 /// The scene with exactly that edit is on its way to the disk within two seconds of frames, also where a copy has just been taken. The thread
