@@ -382,44 +382,43 @@ static bool open_platform(struct app *app, struct error *error)
     return app->platform != NULL;
 }
 
-/// Opens the log after the first frame. Only a log needs the reference frame measured, so that nobody waits for it at a window.
-static bool open_log(struct app *app, struct error *error)
-{
-    const struct app_options *o = app->options;
-    struct frame_header header = {
-        .gl_renderer = app->draw ? draw_renderer_name() : NULL,
-        .solver = evaluation_solver(&app->work.evaluation),
-        .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
-        .warm_up = WARM_UP,
-        .reference_ms = NAN,
-        .first_frame_ms = 1e3 * process_age(),
-    };
-    platform_size(app->platform, &header.width, &header.height, &header.scale);
-    if (o->log && !header.vsync && app->draw) {
-        header.reference_ms = draw_reference_ms(app->draw, header.width, header.height,
-                                                header.scale * (float)app->ui_scale_shown, REFERENCE_FRAMES);
-        app->must_redraw = true;
-        app->last_swap = NAN;
-    }
-    app->log = framelog_open(o->log, &header, LOG_ROWS, error);
-    if (!app->log) return false;
-    framelog_push(app->log, &app->row);
-    printf("first frame after %.0f ms\n", header.first_frame_ms);
-    return true;
-}
-
 /// Makes a frame; false after the last.
 static bool run_frame(void *user)
 {
     struct app *app = user;
-    const bool timed = app->frames > 0 || app->options->log;
-    if (app->options->turns) {
+    const struct app_options *o = app->options;
+    const bool timed = app->frames > 0 || o->log;
+    if (o->turns) {
         turns_take();
         app->last_swap = NAN; // the other program's frame came between
     }
     app_frame(app);
-    if (app->frame == 1 && timed && !app->log && !open_log(app, &app->error)) app->failed = true;
-    if (app->options->turns && !app->failed) turns_give();
+    if (app->frame == 1 && timed && !app->log) {
+        // Only a log needs the reference frame measured, so that nobody waits for it at a window.
+        struct frame_header header = {
+            .gl_renderer = app->draw ? draw_renderer_name() : NULL,
+            .solver = evaluation_solver(&app->work.evaluation),
+            .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
+            .warm_up = WARM_UP,
+            .reference_ms = NAN,
+            .first_frame_ms = 1e3 * process_age(),
+        };
+        platform_size(app->platform, &header.width, &header.height, &header.scale);
+        if (o->log && !header.vsync && app->draw) {
+            header.reference_ms = draw_reference_ms(app->draw, header.width, header.height,
+                                                    header.scale * (float)app->ui_scale_shown, REFERENCE_FRAMES);
+            app->must_redraw = true;
+            app->last_swap = NAN;
+        }
+        app->log = framelog_open(o->log, &header, LOG_ROWS, &app->error);
+        if (app->log) {
+            framelog_push(app->log, &app->row);
+            printf("first frame after %.0f ms\n", header.first_frame_ms);
+        } else {
+            app->failed = true;
+        }
+    }
+    if (o->turns && !app->failed) turns_give();
     return !app->quit && !app->failed && !process_was_told_to_end() && (app->frames == 0 || app->frame < app->frames);
 }
 

@@ -119,29 +119,6 @@ static bool read_header(struct replay *replay, struct error *error)
     return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
 }
 
-/// Checks that frames are in order and within the length, before the replay starts. A recording cut short has length 0 and ends with its
-/// last event.
-static bool check_frames(struct replay *replay, struct error *error)
-{
-    char *at = replay->at;
-    int number = replay->number;
-    long last = 0, limit = replay->header.frames ? replay->header.frames : MAX_FRAMES;
-    for (char *line = replay->event; line; line = next_line(replay)) {
-        char *end;
-        long frame = strtol(line, &end, 10);
-        if (end == line || !isspace((unsigned char)*end) || frame < last || frame >= limit) {
-            struct words words = split(line);
-            return fail(error, ERROR_INPUT, "%s:%d: expected an event in a frame from %ld to %ld, got \"%.40s\"",
-                        replay->path, replay->number, last, limit - 1, words.word[0]);
-        }
-        last = frame;
-    }
-    if (replay->header.frames == 0) replay->header.frames = last + 1;
-    replay->at = at;
-    replay->number = number;
-    return true;
-}
-
 struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error)
 {
     struct replay *replay = need_zeroed(1, sizeof *replay);
@@ -151,7 +128,25 @@ struct replay *replay_parse(const char *name, const char *text, size_t size, str
     const bool whole =
         strlen(replay->text) == size || fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", name);
     for (char *end = replay->text; (end = strchr(end, '\n'));) *end++ = '\0';
-    if (whole && read_header(replay, error) && check_frames(replay, error)) return replay;
+    bool good = whole && read_header(replay, error);
+
+    // Frames must be in order and within the length, before the replay starts. A recording cut short has length 0 and ends with its last event.
+    char *const at = replay->at;
+    const int number = replay->number;
+    long last = 0, limit = replay->header.frames ? replay->header.frames : MAX_FRAMES;
+    for (char *line = replay->event; good && line; line = next_line(replay)) {
+        char *end;
+        const long frame = strtol(line, &end, 10);
+        good = end > line && isspace((unsigned char)*end) && frame >= last && frame < limit;
+        if (!good)
+            fail(error, ERROR_INPUT, "%s:%d: expected an event in a frame from %ld to %ld, got \"%.40s\"", name,
+                 replay->number, last, limit - 1, split(line).word[0]);
+        last = frame;
+    }
+    if (replay->header.frames == 0) replay->header.frames = last + 1;
+    replay->at = at;
+    replay->number = number;
+    if (good) return replay;
     replay_destroy(replay);
     return NULL;
 }

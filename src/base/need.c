@@ -36,12 +36,7 @@ void *need_more(void *old, size_t count, size_t size)
     return memory;
 }
 
-void *need(size_t count, size_t size)
-{
-    void *memory = malloc(need_bytes(count, size));
-    if (!memory) need_failed();
-    return memory;
-}
+void *need(size_t count, size_t size) { return need_more(NULL, count, size); }
 
 void *need_zeroed(size_t count, size_t size)
 {

@@ -56,23 +56,6 @@ static const char *value_of(const char *text, const char *key)
     return found + 1 + strspn(found + 1, " ");
 }
 
-/// Parses a shape such as "(96, 4000, 3)"; false if it is none.
-static bool read_lengths(struct npy *npy, const char *shape)
-{
-    const char *at = shape + 1;
-    if (*shape != '(') return false;
-    snprintf(npy->shape, sizeof npy->shape, "%.*s", (int)strcspn(shape, ")") + 1, shape);
-    for (npy->count = 0; npy->count < NPY_MAX_LENGTHS; npy->count++) {
-        at += strspn(at, " ,");
-        if (*at == ')') return true;
-        char *end;
-        npy->lengths[npy->count] = strtoll(at, &end, 10);
-        if (end == at || npy->lengths[npy->count] < 0) return false;
-        at = end;
-    }
-    return true;
-}
-
 bool npy_read_header(struct npy *npy, const char *path, const char *data, size_t size, struct error *error)
 {
     char text[NPY_DICTIONARY + 1];
@@ -103,7 +86,16 @@ bool npy_read_header(struct npy *npy, const char *path, const char *data, size_t
     npy->number_size = type[3] - '0';
 
     const char *shape = value_of(text, "'shape'"), *order = value_of(text, "'fortran_order'");
-    if (!shape || !order || !read_lengths(npy, shape)) return bad_header(path, error);
+    if (!shape || !order || *shape != '(') return bad_header(path, error);
+    snprintf(npy->shape, sizeof npy->shape, "%.*s", (int)strcspn(shape, ")") + 1, shape);
+    for (const char *at = shape + 1; npy->count < NPY_MAX_LENGTHS; npy->count++) { // such as "(96, 4000, 3)"
+        char *end;
+        at += strspn(at, " ,");
+        if (*at == ')') break;
+        npy->lengths[npy->count] = strtoll(at, &end, 10);
+        if (end == at || npy->lengths[npy->count] < 0) return bad_header(path, error);
+        at = end;
+    }
     npy->columns_first = strncmp(order, "True", 4) == 0;
     return true;
 }

@@ -10,45 +10,6 @@ void posed_free(struct posed *mesh)
     *mesh = (struct posed){0};
 }
 
-/// Finds neighbours across edges, starting at a part. Earlier parts share no edges with later ones.
-static void find_neighbours(struct posed *mesh, int from)
-{
-    if (from == mesh->part_count) return;
-    const int first = mesh->parts[from].first, count = mesh->index_count - first;
-    const float(*place)[3] = (const float(*)[3])mesh->place;
-    const uint32_t *indices = mesh->indices + first;
-    int *neighbours = mesh->neighbours + first;
-    uint32_t *look = need((size_t)count + 1, sizeof *look);
-    for (int p = from; p < mesh->part_count; p++) {
-        const struct posed_part *part = &mesh->parts[p];
-        const bool coat = part->program == PROGRAM_COAT || part->program == PROGRAM_FACE;
-        for (int i = part->first; i < part->end; i++)
-            look[i - first] = coat ? 0 : neighbours_look(part->material, mesh->looks[mesh->indices[i]].color);
-    }
-    neighbours_find(place, mesh->vertex_count, indices, count, neighbours);
-    neighbours_cut(place, indices, look, count, neighbours);
-    for (int i = 0; i < count; i++) neighbours[i] += neighbours[i] >= 0 ? first / 3 : 0;
-    free(look);
-}
-
-/// Marks the triangles that face the eye, or nearly. Near the limit the rasteriser decides, because it rounds.
-static void mark_front(struct posed *mesh, const float eye[3])
-{
-    static const float slack = 1e-6f; // squared cosine
-    for (int p = 0; p < mesh->part_count; p++) {
-        const struct posed_part *part = &mesh->parts[p];
-        for (int i = part->first; i < part->end; i += 3) {
-            const uint32_t *corner = mesh->indices + i;
-            const float *a = mesh->place[corner[0]];
-            const vec3s normal = triangle_normal(a, mesh->place[corner[1]], mesh->place[corner[2]]);
-            const vec3s to_eye = glms_vec3_sub(vec3_from(eye), vec3_from(a));
-            const float facing = (part->mirrored ? -1.0f : 1.0f) * glms_vec3_dot(normal, to_eye);
-            mesh->front[i / 3] =
-                facing >= 0.0f || facing * facing < slack * glms_vec3_norm2(normal) * glms_vec3_norm2(to_eye);
-        }
-    }
-}
-
 // --- models
 
 /// Gives a part the look of its material. Without one, or where phases hide it, it is plain white.
@@ -120,7 +81,23 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
             mesh->vertex_count += part->vertex_count;
             mesh->index_count = added->end;
         }
-        find_neighbours(mesh, from);
+        if (from == mesh->part_count) continue;
+
+        // Neighbours across edges. Parts of other nodes share no edges with these.
+        const int first = mesh->parts[from].first, count = mesh->index_count - first;
+        const float(*place)[3] = (const float(*)[3])mesh->place;
+        int *neighbours = mesh->neighbours + first;
+        uint32_t *look = need((size_t)count + 1, sizeof *look);
+        for (int p = from; p < mesh->part_count; p++) {
+            const struct posed_part *part = &mesh->parts[p];
+            const bool coat = part->program == PROGRAM_COAT || part->program == PROGRAM_FACE;
+            for (int i = part->first; i < part->end; i++)
+                look[i - first] = coat ? 0 : neighbours_look(part->material, mesh->looks[mesh->indices[i]].color);
+        }
+        neighbours_find(place, mesh->vertex_count, mesh->indices + first, count, neighbours);
+        neighbours_cut(place, mesh->indices + first, look, count, neighbours);
+        for (int i = 0; i < count; i++) neighbours[i] += neighbours[i] >= 0 ? first / 3 : 0;
+        free(look);
     }
 }
 
@@ -204,7 +181,21 @@ void posed_pose(struct posed *mesh, const struct stage_model *shown, const float
             memmove(mesh->normal + copy->vertex, normal + from, size);
         }
     }
-    mark_front(mesh, eye);
+
+    // The triangles that face the eye, or nearly. Near the limit the rasteriser decides, because it rounds.
+    static const float slack = 1e-6f; // squared cosine
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct posed_part *part = &mesh->parts[p];
+        for (int i = part->first; i < part->end; i += 3) {
+            const uint32_t *corner = mesh->indices + i;
+            const float *a = mesh->place[corner[0]];
+            const vec3s normal = triangle_normal(a, mesh->place[corner[1]], mesh->place[corner[2]]);
+            const vec3s to_eye = glms_vec3_sub(vec3_from(eye), vec3_from(a));
+            const float facing = (part->mirrored ? -1.0f : 1.0f) * glms_vec3_dot(normal, to_eye);
+            mesh->front[i / 3] =
+                facing >= 0.0f || facing * facing < slack * glms_vec3_norm2(normal) * glms_vec3_norm2(to_eye);
+        }
+    }
 }
 
 // --- skirts

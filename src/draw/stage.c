@@ -281,32 +281,26 @@ struct stage_renderer {
     struct skirts *skirts;
 };
 
-/// A cached mesh of this file that this picture does not use yet, as several rigs may share a file. Otherwise an empty entry,
-/// after freeing the least recently used mesh and all unused for long.
-static struct kept *find_mesh(struct stage_renderer *stage, uint64_t id)
-{
-    struct kept *oldest = &stage->kept[0];
-    for (int i = 0; i < MAX_KEPT; i++) {
-        struct kept *kept = &stage->kept[i];
-        if (kept->id == id && kept->used < stage->clock) return kept;
-        if (kept->used < oldest->used) oldest = kept;
-    }
-    for (int i = 0; i < MAX_KEPT; i++) {
-        struct kept *kept = &stage->kept[i];
-        if (kept != oldest && stage->clock - kept->used <= FORGOTTEN) continue;
-        delete_mesh(&kept->mesh);
-        *kept = (struct kept){0};
-    }
-    return oldest;
-}
-
 static long add_model(struct stage_renderer *stage, const struct stage_model *shown, const float eye[3])
 {
     const struct model_pose *posed = &shown->posed;
     const struct gltf *gltf = posed->gltf;
-    struct kept *kept = find_mesh(stage, gltf->id);
-    struct posed *mesh = &kept->mesh;
+    struct kept *found = NULL, *oldest = stage->kept;
     long bytes = 0;
+
+    // A cached mesh of this file that this picture does not use yet, as several rigs may share a file. Otherwise an empty entry, after freeing
+    // the least recently used mesh and all unused for long.
+    for (struct kept *kept = stage->kept; kept < stage->kept + MAX_KEPT && !found; kept++) {
+        if (kept->id == gltf->id && kept->used < stage->clock) found = kept;
+        if (kept->used < oldest->used) oldest = kept;
+    }
+    for (struct kept *kept = stage->kept; kept < stage->kept + MAX_KEPT && !found; kept++) {
+        if (kept != oldest && stage->clock - kept->used <= FORGOTTEN) continue;
+        delete_mesh(&kept->mesh);
+        *kept = (struct kept){0};
+    }
+    struct kept *kept = found ? found : oldest;
+    struct posed *mesh = &kept->mesh;
     if (kept->id == 0) {
         posed_from_gltf(mesh, gltf);
         bytes += upload_mesh(mesh, gltf);

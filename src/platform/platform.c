@@ -96,16 +96,6 @@ struct offscreen {
     GLuint framebuffer, color, depth;
 };
 
-static bool has_word(const char *words, const char *word)
-{
-    size_t length = strlen(word);
-    for (const char *at = words; at && (at = strstr(at, word)); at += length) {
-        bool starts = at == words || at[-1] == ' ', ends = at[length] == ' ' || at[length] == '\0';
-        if (starts && ends) return true;
-    }
-    return false;
-}
-
 /// Makes a 3.3 core context without a surface current. Cleans up on failure.
 static bool open_display(struct offscreen *offscreen, EGLDisplay display)
 {
@@ -140,15 +130,15 @@ static bool open_display(struct offscreen *offscreen, EGLDisplay display)
 /// Tries all hardware or all software devices.
 static bool open_device(struct offscreen *offscreen, const char *client_extensions, bool software)
 {
-    if (!has_word(client_extensions, "EGL_EXT_platform_device")) return false;
-    bool enumerable = has_word(client_extensions, "EGL_EXT_device_base") ||
-                      has_word(client_extensions, "EGL_EXT_device_enumeration");
+    if (!epoxy_extension_in_string(client_extensions, "EGL_EXT_platform_device")) return false;
+    bool enumerable = epoxy_extension_in_string(client_extensions, "EGL_EXT_device_base") ||
+                      epoxy_extension_in_string(client_extensions, "EGL_EXT_device_enumeration");
     EGLDeviceEXT devices[DEVICES_MAX];
     EGLint count = 0;
     if (!enumerable || !eglQueryDevicesEXT(DEVICES_MAX, devices, &count)) return false;
     for (EGLint i = 0; i < count; i++) {
         const char *extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
-        if (has_word(extensions, "EGL_MESA_device_software") != software) continue;
+        if (epoxy_extension_in_string(extensions, "EGL_MESA_device_software") != software) continue;
         if (open_display(offscreen, eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], NULL))) return true;
     }
     return false;
@@ -170,7 +160,7 @@ static bool open_any(struct offscreen *offscreen, struct error *error)
 
     const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (open_device(offscreen, extensions, false)) return true;
-    if (has_word(extensions, "EGL_MESA_platform_surfaceless") &&
+    if (epoxy_extension_in_string(extensions, "EGL_MESA_platform_surfaceless") &&
         open_display(offscreen, eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL))) {
         return true;
     }

@@ -128,11 +128,6 @@ enum { SIZE_COUNT = 3, ATLAS_WIDTH = 2048, ATLAS_MAX_HEIGHT = 8192, GAP = 1 };
 
 static const float sizes[SIZE_COUNT] = {THEME_TEXT_SMALL, THEME_TEXT_NORMAL, THEME_TEXT_TITLE};
 
-/// atlas.storage: glyphs by font, size and slot.
-struct glyph_table {
-    struct glyph glyphs[FONT_COUNT][SIZE_COUNT][SLOTS];
-};
-
 enum { ENTRY_COUNT = FONT_COUNT * SIZE_COUNT * SLOTS };
 
 struct entry {
@@ -144,9 +139,8 @@ struct entry {
 
 static struct entry table_entry(const struct atlas *atlas, int i)
 {
-    struct glyph_table *table = atlas->storage;
-    int font = i / (SIZE_COUNT * SLOTS), size = i / SLOTS % SIZE_COUNT, slot = i % SLOTS;
-    struct entry entry = {.glyph = &table->glyphs[font][size][slot], .source = &faces[font].glyphs[slot]};
+    const int font = i / (SIZE_COUNT * SLOTS), size = i / SLOTS % SIZE_COUNT;
+    struct entry entry = {.glyph = &atlas->glyphs[i], .source = &faces[font].glyphs[i % SLOTS]};
     entry.info = &faces[entry.source->source].info;
     entry.em = sizes[size] * atlas->scale;
     entry.scale = stbtt_ScaleForMappingEmToPixels(entry.info, entry.em);
@@ -156,8 +150,8 @@ static struct entry table_entry(const struct atlas *atlas, int i)
 bool atlas_build(float scale, struct atlas *atlas, struct error *error)
 {
     int x = GAP + 1, y = GAP + 1, row_height = 0;
-    struct glyph_table *table = need_zeroed(1, sizeof *table);
-    *atlas = (struct atlas){.width = ATLAS_WIDTH, .scale = scale, .storage = table};
+    *atlas = (struct atlas){.width = ATLAS_WIDTH, .scale = scale};
+    atlas->glyphs = need_zeroed(ENTRY_COUNT, sizeof *atlas->glyphs);
 
     // Glyphs lie in rows, each below the tallest glyph of the last, with a gap on all sides, so that filtering never mixes neighbours.
     // Three samples across make a pixel; their filter needs two more columns.
@@ -217,16 +211,15 @@ bool atlas_build(float scale, struct atlas *atlas, struct error *error)
 void atlas_free(struct atlas *atlas)
 {
     free(atlas->coverage);
-    free(atlas->storage);
+    free(atlas->glyphs);
     *atlas = (struct atlas){0};
 }
 
 const struct glyph *atlas_glyph(const struct atlas *atlas, enum font font, float size, uint32_t codepoint)
 {
-    const struct glyph_table *table = atlas->storage;
     int nearest = 0;
     for (int i = 1; i < SIZE_COUNT; i++) {
         if (fabsf(sizes[i] - size) < fabsf(sizes[nearest] - size)) nearest = i;
     }
-    return &table->glyphs[font][nearest][slot_of(codepoint)];
+    return &atlas->glyphs[((int)font * SIZE_COUNT + nearest) * SLOTS + slot_of(codepoint)];
 }

@@ -27,7 +27,7 @@ struct atlas {
     unsigned char *coverage; ///< width × height
     int width, height;
     float scale;
-    void *storage; ///< private
+    struct glyph *glyphs; ///< by font, size and slot
 };
 
 /// Rasterises with stb_truetype, 3×1 oversampling. Free it with atlas_free().
