@@ -61,8 +61,7 @@ struct input {
 struct analyzed {
     int rank; ///< rank within its motion, from 0
     double fps;
-    int frames;
-    double complex *series; ///< R, one value per frame
+    const struct component *component; ///< of the open input
     struct knots knots;
 };
 
@@ -90,36 +89,6 @@ static bool read_directions(struct job *job, int files)
 
 /// Rounded to a millionth, so that files do not depend on the processor LAPACK ran on.
 static double rounded(double value) { return round(value * 1e6) / 1e6; }
-
-/// Opens a motion, and finds what is known of it and how its base moves: what --pin names, else what a simulation pinned, else what rests.
-static bool open_input(const struct job *job, int file, const struct surface *rest, const struct lapack *lapack,
-                       struct input *in, struct error *error)
-{
-    const struct motion *motion = &in->motion;
-    if (!motion_open(&in->motion, job->files[file], error)) return false;
-    if (motion->vertices != rest->vertex_count)
-        return fail(error, ERROR_INPUT, "%s: expected %d vertices as %s has, got %d", motion->path,
-                    rest->vertex_count, job->rest, motion->vertices);
-    if (!companion_read(motion->path, motion->frames, motion->vertices, &in->made, error)) return false;
-    in->fps = job->fps > 0 ? job->fps : motion->fps > 0 ? motion->fps : in->made.fps;
-    if (!(in->fps > 0)) return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
-
-    const bool simulated = in->made.frames > 0;
-    struct region region = job->pinned;
-    if (!job->pin && simulated && !region_parse(in->made.pin, &region))
-        return fail(error, ERROR_INPUT, "%s: expected a region in what simulate wrote beside it, got \"%s\"",
-                    motion->path, in->made.pin);
-    if (!job->pin && simulated && !in->made.world && region.kind != REGION_NONE) return true;
-    if (!job->pin && !simulated) return rigid_find(&in->base, lapack, motion, rest, NULL, error);
-    bool *pinned = need((size_t)rest->vertex_count + 1, sizeof *pinned);
-    for (int v = 0; v < rest->vertex_count; v++) pinned[v] = region.kind == REGION_NONE;
-    bool done =
-        region.kind == REGION_NONE || region_vertices(&region, rest, pinned) > 0 ||
-        fail(error, ERROR_INPUT, "%s: no vertex is in the region of --pin: name one that holds some", job->rest);
-    done = done && rigid_find(&in->base, lapack, motion, rest, pinned, error);
-    free(pinned);
-    return done;
-}
 
 /// Warns of what makes an analysis wrong or hard to use.
 static void warn_of_input(const struct input *in, const struct surface *rest)
@@ -184,27 +153,6 @@ static double offset_of(const double (*middle)[3], const struct character *chara
         offset += frames * square;
     }
     return offset;
-}
-
-/// Gives the character the rest that the motions swing about, on average over all frames. Returns how far that is from the mesh at rest at
-/// most; 0: so near that the character keeps the mesh.
-static double find_rest(struct character *character, const struct input *in, int files)
-{
-    double(*rest)[3] = need_zeroed((size_t)character->vertex_count + 1, sizeof *rest), power = 0, farthest;
-    int frames = 0;
-    for (int f = 0; f < files; f++) frames += in[f].motion.frames;
-    for (int f = 0; f < files; f++) {
-        power += in[f].analysis.power;
-        for (int n = 0; n < 3 * character->vertex_count; n++)
-            rest[n / 3][n % 3] += in[f].analysis.middle[n / 3][n % 3] * in[f].motion.frames / frames;
-    }
-    const double offset = offset_of((const double(*)[3])rest, character, frames, &farthest);
-    const bool moves = offset > least_sag * least_sag * power;
-    for (int n = 0; moves && n < 3 * character->vertex_count; n++)
-        character->position[n / 3][n % 3] = (float)rest[n / 3][n % 3];
-    if (moves) character_find_normals(character);
-    free(rest);
-    return moves ? farthest : 0;
 }
 
 /// The relative error of a motion from that about its middle, which is `offset` from the character's rest.
@@ -316,13 +264,9 @@ static void keep_components(const struct job *job, const struct input *in, doubl
             to->re2[n / 3][n % 3] = (float)creal(c->bend[n / 3][n % 3]);
             to->im2[n / 3][n % 3] = (float)cimag(c->bend[n / 3][n % 3]);
         }
-        *analyzed = (struct analyzed){.rank = rank, .fps = in->fps, .frames = c->frames};
+        *analyzed = (struct analyzed){.rank = rank, .fps = in->fps, .component = c};
         const struct knots *knots = job->scene || job->coordinates ? &analyzed->knots : NULL;
-        if (knots) {
-            knots_create(&analyzed->knots, c, in->fps);
-            analyzed->series = need((size_t)c->frames, sizeof *analyzed->series);
-            memcpy(analyzed->series, c->series, (size_t)c->frames * sizeof *analyzed->series);
-        }
+        if (knots) knots_create(&analyzed->knots, c, in->fps);
 
         double along[3];
         for (int k = 0; k < 3; k++) along[k] = printable_number(c->direction[k], 0.01);
@@ -379,7 +323,7 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
     for (int i = 0; i < count; i++) {
         const struct analyzed *each = &analyzed[chosen[i]];
         fps = fmax(fps, each->fps);
-        seconds = fmax(seconds, (each->frames - 1) / each->fps);
+        seconds = fmax(seconds, (each->component->frames - 1) / each->fps);
     }
     bool done = edit_fps(document, fps, false, error) &&
                 edit_range(document, 0, (int)round(fps * seconds), RANGE_REFUSE, error);
@@ -415,7 +359,7 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
         const struct analyzed *each = &analyzed[chosen[i]];
         const struct knots *knots = &each->knots;
         const struct param cubic = param_number(WIGGLY_CUBIC), track = param_track(document->spline_count);
-        const double end = round((each->frames - 1) * document->fps / each->fps);
+        const double end = round((each->component->frames - 1) * document->fps / each->fps);
         const double slope = (knots->last_frequency - knots->frequency) * document->fps / end;
         char called[256];
         if (slope == 0) continue;
@@ -479,15 +423,17 @@ static bool analyze_write_coordinates(const char *path, const struct character *
         print_field(out, character->coordinates[i / 4].name, suffixes[i % 4]);
     }
     fputc('\n', out);
-    for (int i = 0; i < count; i++) frames = analyzed[i].frames > frames ? analyzed[i].frames : frames;
+    for (int i = 0; i < count; i++)
+        frames = analyzed[i].component->frames > frames ? analyzed[i].component->frames : frames;
     for (int t = 0; t < frames && !ferror(out); t++) {
         fprintf(out, "%d", t);
         for (int i = 0; i < count; i++) {
-            if (t >= analyzed[i].frames) {
+            const struct component *c = analyzed[i].component;
+            if (t >= c->frames) {
                 fputs(",,,,", out);
                 continue;
             }
-            const double complex r = analyzed[i].series[t], x = analyzed[i].knots.series[t];
+            const double complex r = c->series[t], x = analyzed[i].knots.series[t];
             fprintf(out, ",%.9g,%.9g,%.9g,%.9g", creal(r), cimag(r), creal(x), cimag(x));
         }
         fputc('\n', out);
@@ -495,7 +441,8 @@ static bool analyze_write_coordinates(const char *path, const struct character *
     return file_output_commit(&output, error);
 }
 
-/// Analyses a motion; the mesh at rest is the character's.
+/// Opens and analyses a motion; the mesh at rest is the character's. The base is what --pin names, else what a simulation pinned, else what
+/// rests.
 static bool analyse_file(const struct job *job, int file, const struct character *character,
                          const struct lapack *lapack, struct input *in, struct error *error)
 {
@@ -504,7 +451,30 @@ static bool analyse_file(const struct job *job, int file, const struct character
                                     .vertex_count = character->vertex_count,
                                     .indices = character->indices,
                                     .index_count = character->index_count};
-    if (!open_input(job, file, &resting, lapack, in, error)) return false;
+    const struct motion *motion = &in->motion;
+    if (!motion_open(&in->motion, job->files[file], error)) return false;
+    if (motion->vertices != resting.vertex_count)
+        return fail(error, ERROR_INPUT, "%s: expected %d vertices as %s has, got %d", motion->path,
+                    resting.vertex_count, job->rest, motion->vertices);
+    if (!companion_read(motion->path, motion->frames, motion->vertices, &in->made, error)) return false;
+    in->fps = job->fps > 0 ? job->fps : motion->fps > 0 ? motion->fps : in->made.fps;
+    if (!(in->fps > 0)) return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
+
+    const bool simulated = in->made.frames > 0, is_known = job->pin || simulated;
+    struct region region = job->pinned;
+    if (!job->pin && simulated && !region_parse(in->made.pin, &region))
+        return fail(error, ERROR_INPUT, "%s: expected a region in what simulate wrote beside it, got \"%s\"",
+                    motion->path, in->made.pin);
+    if (job->pin || !simulated || in->made.world || region.kind == REGION_NONE) { // else the motion is from the base
+        bool *pinned = need((size_t)resting.vertex_count + 1, sizeof *pinned);
+        for (int v = 0; v < resting.vertex_count; v++) pinned[v] = region.kind == REGION_NONE;
+        bool found =
+            !is_known || region.kind == REGION_NONE || region_vertices(&region, &resting, pinned) > 0 ||
+            fail(error, ERROR_INPUT, "%s: no vertex is in the region of --pin: name one that holds some", job->rest);
+        found = found && rigid_find(&in->base, lapack, motion, &resting, is_known ? pinned : NULL, error);
+        free(pinned);
+        if (!found) return false;
+    }
     const double driven = job->from >= 0 ? job->from * in->fps : in->made.from * in->made.fps; // frames
     in->plan = (struct analysis_plan){
         .method = job->method,
@@ -512,7 +482,7 @@ static bool analyse_file(const struct job *job, int file, const struct character
         .modes = job->modes,
         .first = job->method == ANALYSIS_CPCA ? 0 : (int)fmin(ceil(driven), ANALYSIS_FRAMES_MAX),
         .direction = job->direction_count > 0 ? job->directions[job->direction_count > 1 ? file : 0]
-                     : in->made.frames > 0    ? in->made.shake
+                     : simulated              ? in->made.shake
                                               : NULL,
         .base = &in->base,
         .straight = job->straight,
@@ -539,7 +509,24 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
     struct input in[FILES_MAX] = {0};
     for (int f = 0; f < files; f++) in[f].motion.file = -1;
     for (int f = 0; done && f < files; f++) done = analyse_file(job, f, character, &lapack, &in[f], error);
-    const double moved = done ? find_rest(character, in, files) : 0;
+    double moved =
+        0; // how far the rest that the motions swing about, on average over all frames, is from the mesh at rest at most
+    if (done) {
+        double(*middle)[3] = need_zeroed((size_t)character->vertex_count + 1, sizeof *middle), power = 0;
+        int frames = 0;
+        for (int f = 0; f < files; f++) frames += in[f].motion.frames;
+        for (int f = 0; f < files; f++) {
+            power += in[f].analysis.power;
+            for (int n = 0; n < 3 * character->vertex_count; n++)
+                middle[n / 3][n % 3] += in[f].analysis.middle[n / 3][n % 3] * in[f].motion.frames / frames;
+        }
+        const double offset = offset_of((const double(*)[3])middle, character, frames, &moved);
+        if (offset <= least_sag * least_sag * power) moved = 0; // so near that the character keeps the mesh
+        for (int n = 0; moved > 0 && n < 3 * character->vertex_count; n++)
+            character->position[n / 3][n % 3] = (float)middle[n / 3][n % 3];
+        if (moved > 0) character_find_normals(character);
+        free(middle);
+    }
     for (int f = 0; done && f < files; f++) { // appends the file's coordinates
         const struct motion *motion = &in[f].motion;
         const struct rigid *base = &in[f].base;
@@ -562,11 +549,6 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
     if (moved > 0)
         print_line(stdout, "%s: its rest is what the motion swings about, up to %.3g m from %s", job->output, moved,
                    job->rest);
-    for (int f = 0; f < files; f++) {
-        pool_free(&in[f].analysis.pool);
-        pool_free(&in[f].base.pool);
-        motion_close(&in[f].motion);
-    }
     while (done && character->coordinate_count > result.filled) { // those without poles
         struct coordinate *last = &character->coordinates[--character->coordinate_count];
         for (int p = 0; p < COORDINATE_PARTS; p++) free(last->parts[p]);
@@ -578,10 +560,12 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
            character_write(job->output, character, !job->no_normals, error) &&
            (!job->scene || analyze_write_scene(job->scene, job->output, character, result.analyzed, error)) &&
            (!job->coordinates || analyze_write_coordinates(job->coordinates, character, result.analyzed, error));
-    for (int i = 0; i < result.filled; i++) {
-        free(result.analyzed[i].series);
-        free(result.analyzed[i].knots.series);
+    for (int f = 0; f < files; f++) {
+        pool_free(&in[f].analysis.pool);
+        pool_free(&in[f].base.pool);
+        motion_close(&in[f].motion);
     }
+    for (int i = 0; i < result.filled; i++) free(result.analyzed[i].knots.series);
     free(result.analyzed);
     character_free(character);
     surface_free(&rest);
