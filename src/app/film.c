@@ -184,32 +184,6 @@ static bool open_gif(struct film_file *file, struct error *error)
     return true;
 }
 
-struct rectangle {
-    int left, top, right, bottom; ///< the latter two are not within
-};
-
-/// Notes in `drawn` the pixels that differ, and returns where they are.
-static struct rectangle find_changed(struct film_file *file, const unsigned char *pixels)
-{
-    const int width = file->shape.width, height = file->shape.height;
-    struct rectangle r = {width, height, 0, 0};
-    for (int y = 0; y < height; y++) {
-        for (int x = 0; x < width; x++) {
-            const size_t i = (size_t)y * (size_t)width + (size_t)x;
-            const unsigned char *a = pixels + 4 * i, *b = file->last + 4 * i;
-            file->drawn[i] = file->written == 0 || abs(a[0] - b[0]) > NOT_SEEN || abs(a[1] - b[1]) > NOT_SEEN ||
-                             abs(a[2] - b[2]) > NOT_SEEN;
-            if (!file->drawn[i]) continue;
-            memcpy(file->last + 4 * i, pixels + 4 * i, 4);
-            r.left = x < r.left ? x : r.left;
-            r.right = x >= r.right ? x + 1 : r.right;
-            r.top = y < r.top ? y : r.top;
-            r.bottom = y + 1;
-        }
-    }
-    return r.right > 0 ? r : (struct rectangle){0, 0, 1, 1};
-}
-
 // --- colors
 
 static struct box measure_box(const struct color *colors, int first, int count)
@@ -354,8 +328,26 @@ static enum film_state put_gif(struct film_file *file, const unsigned char *pixe
     (void)wait;
     FILE *stream = file->output.stream;
     struct palette palette;
-    const struct rectangle r = find_changed(file, pixels);
-    memset(file->indices, TRANSPARENT, (size_t)file->shape.width * (size_t)file->shape.height);
+    const int width = file->shape.width, height = file->shape.height;
+
+    // The pixels that differ, and where they are.
+    int left = width, top = height, right = 0, bottom = 0; // the latter two are not within
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            const size_t i = (size_t)y * (size_t)width + (size_t)x;
+            const unsigned char *a = pixels + 4 * i, *b = file->last + 4 * i;
+            file->drawn[i] = file->written == 0 || abs(a[0] - b[0]) > NOT_SEEN || abs(a[1] - b[1]) > NOT_SEEN ||
+                             abs(a[2] - b[2]) > NOT_SEEN;
+            if (!file->drawn[i]) continue;
+            memcpy(file->last + 4 * i, pixels + 4 * i, 4);
+            left = x < left ? x : left;
+            right = x >= right ? x + 1 : right;
+            top = y < top ? y : top;
+            bottom = y + 1;
+        }
+    }
+    if (right == 0) left = top = 0, right = bottom = 1;
+    memset(file->indices, TRANSPARENT, (size_t)width * (size_t)height);
     choose_colors(file, pixels, &palette);
     choose_indices(file, pixels, &palette);
     fwrite("\x21\xf9\x04\x05", 1, 4, stream); // on top of the last; with transparency
@@ -365,10 +357,10 @@ static enum film_state put_gif(struct film_file *file, const unsigned char *pixe
     putc(TRANSPARENT, stream);
     putc(0, stream);
     putc(',', stream);
-    put_short(stream, r.left);
-    put_short(stream, r.top);
-    put_short(stream, r.right - r.left);
-    put_short(stream, r.bottom - r.top);
+    put_short(stream, left);
+    put_short(stream, top);
+    put_short(stream, right - left);
+    put_short(stream, bottom - top);
     putc(0x87, stream); // 256 colors of its own
     fwrite(palette.colors, 3, (size_t)palette.count, stream);
     for (int c = palette.count; c < 256; c++) fwrite("\0\0\0", 1, 3, stream);
@@ -379,9 +371,9 @@ static enum film_state put_gif(struct film_file *file, const unsigned char *pixe
     lzw->bit_count = 0;
     lzw->width = 9;
     clear_codes(lzw);
-    for (int y = r.top; y < r.bottom; y++) {
-        const unsigned char *row = file->indices + (size_t)y * (size_t)file->shape.width;
-        for (int x = r.left; x < r.right; x++) code = code < 0 ? row[x] : add_index(lzw, code, row[x]);
+    for (int y = top; y < bottom; y++) {
+        const unsigned char *row = file->indices + (size_t)y * (size_t)width;
+        for (int x = left; x < right; x++) code = code < 0 ? row[x] : add_index(lzw, code, row[x]);
     }
     put_string(lzw, code);
     put_code(lzw, END);

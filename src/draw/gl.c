@@ -18,48 +18,39 @@ static GLuint compile(GLenum kind, const char *name, const char *define)
     return shader;
 }
 
-/// Reports the first line of the driver's log; returns false.
-static bool refuse(const char *name, const char *what, char *log, struct error *error)
-{
-    log[strcspn(log, "\r\n")] = '\0';
-    return fail(error, ERROR_ENVIRONMENT, "shaders/%s: the graphics driver cannot %s it: %s", name, what,
-                *log ? log : "?");
-}
-
-static bool is_compiled(GLuint shader, const char *name, struct error *error)
+/// Whether a shader is compiled or a program is linked, else the first line of the driver's log is the error.
+static bool is_made(GLuint object, bool links, const char *name, struct error *error)
 {
     char log[256] = "";
-    GLint ok = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok) return true;
-    glGetShaderInfoLog(shader, sizeof log, NULL, log);
-    return refuse(name, "compile", log, error);
+    GLint made = 0;
+    if (links)
+        glGetProgramiv(object, GL_LINK_STATUS, &made);
+    else
+        glGetShaderiv(object, GL_COMPILE_STATUS, &made);
+    if (made) return true;
+    if (links)
+        glGetProgramInfoLog(object, sizeof log, NULL, log);
+    else
+        glGetShaderInfoLog(object, sizeof log, NULL, log);
+    log[strcspn(log, "\r\n")] = '\0';
+    return fail(error, ERROR_ENVIRONMENT, "shaders/%s: the graphics driver cannot %s it: %s", name,
+                links ? "link" : "compile", *log ? log : "?");
 }
 
 GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error)
 {
     const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, NULL);
     const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragment_name, define);
-    GLuint program = glCreateProgram();
+    const GLuint program = glCreateProgram();
     glAttachShader(program, vertex);
     glAttachShader(program, fragment);
-    GLint linked = 0;
-    if (is_compiled(vertex, vertex_name, error) && is_compiled(fragment, fragment_name, error)) {
-        char log[256] = "";
-        glLinkProgram(program);
-        glGetProgramiv(program, GL_LINK_STATUS, &linked);
-        if (!linked) {
-            glGetProgramInfoLog(program, sizeof log, NULL, log);
-            refuse(vertex_name, "link", log, error);
-        }
-    }
-    if (!linked) {
-        glDeleteProgram(program);
-        program = 0;
-    }
+    bool made = is_made(vertex, false, vertex_name, error) && is_made(fragment, false, fragment_name, error);
+    if (made) glLinkProgram(program);
+    made = made && is_made(program, true, vertex_name, error);
+    if (!made) glDeleteProgram(program);
     glDeleteShader(vertex);
     glDeleteShader(fragment);
-    return program;
+    return made ? program : 0;
 }
 
 GLuint gl_buffer(GLenum target, size_t bytes, const void *data, GLenum usage)
