@@ -50,8 +50,8 @@ struct autosave {
     double begun;      ///< time of its start
     bool has_file, complained;
 
-    bool writes;               ///< a write is unreported
-    struct document *document; ///< owned by the thread until `ended`, like the next two
+    struct document
+        *document; ///< of an unreported write, else NULL; owned by the thread until `ended`, like the next two
     struct scene_origin origin;
     struct error error;
     thrd_t thread;

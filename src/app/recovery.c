@@ -114,7 +114,7 @@ struct autosave *autosave_open(const struct recovery_slot *slot)
     return autosave;
 }
 
-static bool is_busy(struct autosave *autosave) { return autosave->writes && !atomic_load(&autosave->ended); }
+static bool is_busy(struct autosave *autosave) { return autosave->document && !atomic_load(&autosave->ended); }
 
 static void wait_for_write(struct autosave *autosave)
 {
@@ -127,7 +127,7 @@ static void finish_write(struct autosave *autosave)
     if (autosave->threaded) thrd_join(autosave->thread, NULL);
     document_destroy(autosave->document);
     autosave->document = NULL;
-    autosave->threaded = autosave->writes = false;
+    autosave->threaded = false;
 }
 
 bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *work)
@@ -141,7 +141,7 @@ bool autosave_update(struct autosave *autosave, const struct autosave_work *work
 
     // Only the first of several failures is reported. The next interval tries again.
     bool is_news = false;
-    if (autosave->writes) {
+    if (autosave->document) {
         const bool failed = autosave->error.kind != ERROR_NONE;
         is_news = failed && !autosave->complained;
         finish_write(autosave);
@@ -158,7 +158,7 @@ bool autosave_update(struct autosave *autosave, const struct autosave_work *work
         autosave->origin = origin_of(work);
         autosave->revision = work->revision;
         autosave->begun = now;
-        autosave->writes = autosave->has_file = true;
+        autosave->has_file = true;
         atomic_store(&autosave->ended, false);
         autosave->threaded = thrd_create(&autosave->thread, write_document, autosave) == thrd_success;
         if (!autosave->threaded) write_document(autosave); // a late frame is better than lost work

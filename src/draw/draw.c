@@ -227,7 +227,6 @@ struct draw {
     struct target target; ///< for a stage at a lower resolution
     struct atlas atlas;
     GLuint atlas_texture;
-    struct line_scratch scratch;
     struct damage damage;
     struct gpu_timer timer;
 };
@@ -330,7 +329,6 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     static const float seam = 3.0f; ///< device pixels that soft outlines may reach outwards, rounded up
     struct damage *damage = &draw->damage;
     struct batch *batch = &draw->batch;
-    struct painter painter = {batch, &draw->scratch, &draw->atlas, input->scale};
     *cost = (struct draw_cost){0};
     cost->gpu_us = gpu_timer_take(&draw->timer, &cost->gpu_frame);
     double start = clock_now();
@@ -363,8 +361,8 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
         draw_below(draw, input, damage->rectangles[i], stage.viewport);
         cost->pixels += area_pixels(damage->rectangles[i]);
     }
-    batch_begin(batch, input->width, input->height, draw->atlas_texture, draw->atlas.width, draw->atlas.height);
-    for (int i = 0; i < damage->count; i++) paint_list(&painter, input->list, damage->rectangles[i]);
+    batch_begin(batch, input->width, input->height, input->scale, &draw->atlas, draw->atlas_texture);
+    for (int i = 0; i < damage->count; i++) paint_list(batch, input->list, damage->rectangles[i]);
     batch_flush(batch);
     glDisable(GL_SCISSOR_TEST);
     gpu_timer_end(&draw->timer);

@@ -6,6 +6,16 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+enum { LINE_POINTS = 8192 };
+
+/// Working memory: a line in device pixels, and one of its dashes.
+struct line_scratch {
+    struct line_point {
+        float x, y;
+        float along; ///< distance from the nearer end + 1/2, or 1 if the line is closed
+    } points[LINE_POINTS], dash[LINE_POINTS];
+};
+
 // --- the batch
 
 bool batch_create(struct batch *batch, struct error *error)
@@ -14,6 +24,7 @@ bool batch_create(struct batch *batch, struct error *error)
         .vertices = need_zeroed(BATCH_VERTICES, sizeof *batch->vertices),
         .indices = need_zeroed(BATCH_INDICES, sizeof *batch->indices),
         .parts = need_zeroed(BATCH_PARTS, sizeof *batch->parts),
+        .scratch = need_zeroed(1, sizeof *batch->scratch),
     };
     batch->program = gl_program("ui.vert", "ui.frag", NULL, error);
     if (!batch->program) {
@@ -47,18 +58,19 @@ void batch_destroy(struct batch *batch)
     free(batch->vertices);
     free(batch->indices);
     free(batch->parts);
+    free(batch->scratch);
     *batch = (struct batch){0};
 }
 
-void batch_begin(struct batch *batch, int width, int height, GLuint texture, int texture_width, int texture_height)
+void batch_begin(struct batch *batch, int width, int height, float scale, const struct atlas *atlas, GLuint texture)
 {
     batch->vertex_count = batch->index_count = batch->part_count = 0;
     batch->generation++;
     batch->width = width;
     batch->height = height;
+    batch->scale = scale;
+    batch->atlas = atlas;
     batch->texture = texture;
-    batch->texture_width = texture_width;
-    batch->texture_height = texture_height;
     batch->upload_us = 0.0;
     batch->uploaded_bytes = 0;
     batch->scissor = (struct area){0, 0, width, height};
@@ -81,7 +93,7 @@ void batch_flush(struct batch *batch)
         glViewport(0, 0, batch->width, batch->height);
         glUseProgram(batch->program);
         glUniform2f(batch->framebuffer_uniform, (float)batch->width, (float)batch->height);
-        glUniform2f(batch->atlas_size_uniform, (float)batch->texture_width, (float)batch->texture_height);
+        glUniform2f(batch->atlas_size_uniform, (float)batch->atlas->width, (float)batch->atlas->height);
         glActiveTexture(GL_TEXTURE0);
         glBindTexture(GL_TEXTURE_2D, batch->texture);
         glDisable(GL_DEPTH_TEST);
@@ -579,10 +591,10 @@ static void add_open(struct stroke *stroke, struct line_point *points, int count
 }
 
 /// Cuts a line into dashes of `on` and gaps of `off` device pixels, each drawn as an open line.
-static void add_dashes(struct stroke *stroke, struct line_scratch *scratch, int count, float on, float off)
+static void add_dashes(struct stroke *stroke, int count, float on, float off)
 {
-    struct line_point *dash = scratch->dash;
-    const struct line_point *p = scratch->points;
+    struct line_point *dash = stroke->batch->scratch->dash;
+    const struct line_point *p = stroke->batch->scratch->points;
     float left = on; // remaining length of the current dash or gap
     bool inked = true;
     int length = 0;
@@ -645,15 +657,14 @@ static bool extend(struct cone *cone, vec2s p)
 }
 
 /// Adds a polyline in logical pixels; omits parts that cannot touch `visible`.
-static void add_line(const struct painter *painter, const struct draw_command *command, const float *xy,
-                     struct area visible)
+static void add_line(struct batch *batch, const struct draw_command *command, const float *xy, struct area visible)
 {
-    struct line_point *p = painter->scratch->points;
-    const float scale = painter->scale, width = command->width * scale;
+    struct line_point *p = batch->scratch->points;
+    const float scale = batch->scale, width = command->width * scale;
     const float on = command->on * scale, off = command->off * scale;
     float alpha = (float)(command->color & 0xFFu) * fminf(width, 1.0f); // a line thinner than a pixel gets fainter
     struct stroke stroke = {
-        .batch = painter->batch,
+        .batch = batch,
         .visible = visible,
         .color = (command->color & 0xFFFFFF00u) | (uint32_t)lroundf(alpha),
         .reach = 0.5f * fmaxf(width, 1.0f) + 0.5f,
@@ -678,7 +689,7 @@ static void add_line(const struct painter *painter, const struct draw_command *c
         float length = 0.0f;
         for (int i = 1; dashed && i < count; i++) length += hypotf(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y);
         if (count > 1 && dashed && length < DASHES_MAX * (on + off)) {
-            add_dashes(&stroke, painter->scratch, count, on, off);
+            add_dashes(&stroke, count, on, off);
         } else if (count > 3 && hypotf(p[0].x - p[count - 1].x, p[0].y - p[count - 1].y) < 0.05f) {
             p[count - 1] = p[0];
             for (int i = 0; i < count; i++) p[i].along = 1.0f;
@@ -708,12 +719,11 @@ static bool clip_axis(float *from, float *to, float *texel_from, float *texel_to
 }
 
 /// A line of text with its pen at (x, y) in logical pixels, clipped to `clip`.
-static void add_text(const struct painter *painter, const struct draw_command *command, const char *text,
-                     struct area clip)
+static void add_text(struct batch *batch, const struct draw_command *command, const char *text, struct area clip)
 {
-    float pen = roundf(command->x * painter->scale), baseline = roundf(command->y * painter->scale);
+    float pen = roundf(command->x * batch->scale), baseline = roundf(command->y * batch->scale);
     for (uint32_t c; (c = utf8_next(&text)) != 0;) {
-        const struct glyph *glyph = atlas_glyph(painter->atlas, command->font, command->width, c);
+        const struct glyph *glyph = atlas_glyph(batch->atlas, command->font, command->width, c);
         struct quad quad = {
             pen + glyph->xoff,  baseline + glyph->yoff,
             pen + glyph->xoff2, baseline + glyph->yoff2,
@@ -724,14 +734,13 @@ static void add_text(const struct painter *painter, const struct draw_command *c
         if (glyph->x1 == glyph->x0) continue;
         if (!clip_axis(&quad.x0, &quad.x1, &quad.u0, &quad.u1, clip.x0, clip.x1)) continue;
         if (!clip_axis(&quad.y0, &quad.y1, &quad.v0, &quad.v1, clip.y0, clip.y1)) continue;
-        add_quad(painter->batch, &quad, command->color);
+        add_quad(batch, &quad, command->color);
     }
 }
 
-void paint_list(const struct painter *painter, const struct drawlist *list, struct area area)
+void paint_list(struct batch *batch, const struct drawlist *list, struct area area)
 {
-    struct batch *batch = painter->batch;
-    const float s = painter->scale;
+    const float s = batch->scale;
     batch->scissor = area;
     for (const struct draw_command *command = list->commands; command < list->commands + list->count; command++) {
         const struct rect b = command->bounds, c = command->clip;
@@ -751,7 +760,7 @@ void paint_list(const struct painter *painter, const struct drawlist *list, stru
             add_rectangle(batch, (const float[4]){xy[0] * s, xy[1] * s, xy[2] * s, xy[3] * s}, clip, command->color);
             break;
         case DRAW_LINE:
-            add_line(painter, command, xy, area_intersect(clip, area));
+            add_line(batch, command, xy, area_intersect(clip, area));
             break;
         case DRAW_BAND:
             add_band(batch, xy, command->count, command->width, s, command->color);
@@ -760,7 +769,7 @@ void paint_list(const struct painter *painter, const struct drawlist *list, stru
             add_convex(batch, xy, command->count, s, command->color);
             break;
         case DRAW_TEXT:
-            add_text(painter, command, list->text + command->first, clip);
+            add_text(batch, command, list->text + command->first, clip);
             break;
         }
     }

@@ -27,7 +27,7 @@ struct batch_part {
 
 /// Collects triangles on the CPU.
 struct batch {
-    GLuint program, array, vertex_buffer, index_buffer;
+    GLuint program, array, vertex_buffer, index_buffer, texture;
     GLint framebuffer_uniform, atlas_size_uniform;
     struct batch_vertex *vertices;
     uint32_t *indices;
@@ -35,9 +35,10 @@ struct batch {
     int vertex_count, index_count, part_count;
     unsigned generation; ///< changes with every flush, which invalidates earlier indices
     int width, height;   ///< framebuffer
-    struct area scissor; ///< of shapes added next; set by the caller
-    GLuint texture;
-    int texture_width, texture_height;
+    struct area scissor; ///< of shapes added next
+    struct line_scratch *scratch;
+    const struct atlas *atlas;
+    float scale; ///< device pixels per logical pixel
     double upload_us;
     long uploaded_bytes; ///< both since batch_begin()
 };
@@ -45,34 +46,13 @@ struct batch {
 bool batch_create(struct batch *batch, struct error *error);
 void batch_destroy(struct batch *batch);
 
-/// Starts a frame of width × height device pixels with an atlas texture.
-void batch_begin(struct batch *batch, int width, int height, GLuint texture, int texture_width, int texture_height);
+/// Starts a frame of width × height device pixels with an atlas in a texture.
+void batch_begin(struct batch *batch, int width, int height, float scale, const struct atlas *atlas, GLuint texture);
 
 /// Uploads and draws everything, then empties the batch.
 void batch_flush(struct batch *batch);
 
-// Draw lists.
-
-enum { LINE_POINTS = 8192 };
-
-struct line_point {
-    float x, y;
-    float along; ///< distance from the nearer end + 1/2, or 1 if the line is closed
-};
-
-/// Working memory: a line in device pixels, and one of its dashes.
-struct line_scratch {
-    struct line_point points[LINE_POINTS], dash[LINE_POINTS];
-};
-
-struct painter {
-    struct batch *batch;
-    struct line_scratch *scratch;
-    const struct atlas *atlas;
-    float scale;
-};
-
-/// Adds every command that touches `area`, in order and clipped to it.
-void paint_list(const struct painter *painter, const struct drawlist *list, struct area area);
+/// Adds every command of a draw list that touches `area`, in order and clipped to it.
+void paint_list(struct batch *batch, const struct drawlist *list, struct area area);
 
 #endif

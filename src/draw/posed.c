@@ -17,14 +17,11 @@ static void dress(struct posed_part *part, const struct gltf *gltf, bool hidden)
 {
     static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
     const struct gltf_part *own = part->own;
-    const struct gltf_material *material = own->material < 0 || hidden ? &plain : &gltf->materials[own->material];
-    const bool is_face = own->mark && strcmp(material->name, "face") == 0;
-    part->both_sides = material->double_sided;
-    const bool is_plain = material->image < 0 && material->cutoff <= 0.0f && !material->blended && !part->both_sides;
+    const struct gltf_material *m = own->material < 0 || hidden ? &plain : &gltf->materials[own->material];
+    const bool is_face = own->mark && strcmp(m->name, "face") == 0;
+    const bool is_plain = m->image < 0 && m->cutoff <= 0.0f && !m->blended && !m->double_sided;
     part->program = is_face ? PROGRAM_FACE : own->mark ? PROGRAM_COAT : is_plain ? PROGRAM_PLAIN : PROGRAM_PICTURED;
-    part->cutoff = material->cutoff;
-    part->blended = material->blended;
-    memcpy(part->base, material->color, sizeof part->base);
+    part->material = m;
 }
 
 static void look_at(const struct gltf_part *part, int v, struct posed_look *look)
@@ -71,8 +68,7 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
                                          .end = mesh->index_count + part->index_count,
                                          .vertex = mesh->vertex_count,
                                          .node = n,
-                                         .own = part,
-                                         .material = part->material};
+                                         .own = part};
             dress(added, gltf, false);
             memcpy(mesh->place + added->vertex, part->position, (size_t)part->vertex_count * sizeof *mesh->place);
             for (int v = 0; v < part->vertex_count; v++) look_at(part, v, &mesh->looks[added->vertex + v]);
@@ -92,7 +88,8 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
             const struct posed_part *part = &mesh->parts[p];
             const bool coat = part->program == PROGRAM_COAT || part->program == PROGRAM_FACE;
             for (int i = part->first; i < part->end; i++)
-                look[i - first] = coat ? 0 : neighbours_look(part->material, mesh->looks[mesh->indices[i]].color);
+                look[i - first] =
+                    coat ? 0 : neighbours_look(part->own->material, mesh->looks[mesh->indices[i]].color);
         }
         neighbours_find(place, mesh->vertex_count, mesh->indices + first, count, neighbours);
         neighbours_cut(place, mesh->indices + first, look, count, neighbours);
@@ -208,7 +205,7 @@ int skirt_next(const struct posed *mesh, const struct posed_part *part, int from
     for (int i = from; i < part->end; i++) {
         const int other = mesh->neighbours[i];
         const bool front = mesh->front[i / 3];
-        if (other < 0 ? front || part->both_sides : front && !mesh->front[other]) return i;
+        if (other < 0 ? front || part->material->double_sided : front && !mesh->front[other]) return i;
     }
     return part->end;
 }

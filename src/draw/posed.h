@@ -22,10 +22,7 @@ struct posed_part {
     const struct gltf_part *own;
     bool mirrored;              ///< as posed, triangles are clockwise seen from outside
     enum stage_program program; ///< for its surface
-    int material;               ///< −1: none
-    float base[4];              ///< the material's colour, linear, with opacity
-    float cutoff;               ///< opacity below which nothing is drawn; 0: draw everything
-    bool blended, both_sides;
+    const struct gltf_material *material;
     GLuint picture, sampler; ///< 0: none
 };
 

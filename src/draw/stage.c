@@ -224,10 +224,9 @@ static long upload_mesh(struct posed *mesh, const struct gltf *gltf)
     }
     for (int p = 0; p < mesh->part_count; p++) {
         struct posed_part *part = &mesh->parts[p];
-        if (part->material < 0) continue;
-        const int image = gltf->materials[part->material].image;
+        const int material = part->own->material, image = material >= 0 ? gltf->materials[material].image : -1;
         part->picture = image >= 0 ? mesh->pictures[image] : 0;
-        part->sampler = mesh->samplers[part->material];
+        part->sampler = material >= 0 ? mesh->samplers[material] : 0;
     }
     return bytes;
 }
@@ -338,10 +337,10 @@ static void use_material(const struct stage_renderer *stage, const struct progra
                          const struct posed_part *part, bool skirts)
 {
     const bool is_pictured = part->program == PROGRAM_PICTURED;
-    glUniform4fv(program->at[AT_BASE], 1, part->base);
-    glUniform1f(program->at[AT_CUTOFF], part->cutoff);
-    glUniform1i(program->at[AT_BLENDED], part->blended);
-    glUniform1i(program->at[AT_BOTH_SIDES], part->both_sides && !skirts);
+    glUniform4fv(program->at[AT_BASE], 1, part->material->color);
+    glUniform1f(program->at[AT_CUTOFF], part->material->cutoff);
+    glUniform1i(program->at[AT_BLENDED], part->material->blended);
+    glUniform1i(program->at[AT_BOTH_SIDES], part->material->double_sided && !skirts);
     glBindTexture(GL_TEXTURE_2D, is_pictured && part->picture ? part->picture : stage->white);
     glBindSampler(PICTURE_UNIT, part->sampler);
 }
@@ -350,8 +349,8 @@ enum kind { SOLID, MASKED, BLENDED };
 
 static enum kind kind_of(const struct posed_part *part)
 {
-    if (part->blended) return BLENDED;
-    return part->cutoff > 0.0f ? MASKED : SOLID;
+    if (part->material->blended) return BLENDED;
+    return part->material->cutoff > 0.0f ? MASKED : SOLID;
 }
 
 static void draw_parts(const struct stage_renderer *stage, const struct posed *mesh, enum stage_program program,
@@ -362,7 +361,7 @@ static void draw_parts(const struct stage_renderer *stage, const struct posed *m
         if (part->program != program || kind_of(part) < first || kind_of(part) > last) continue;
         use_material(stage, &stage->programs[program], part, false);
         glFrontFace(part->mirrored ? GL_CW : GL_CCW);
-        if (part->both_sides) glDisable(GL_CULL_FACE);
+        if (part->material->double_sided) glDisable(GL_CULL_FACE);
         glDrawElements(GL_TRIANGLES, part->end - part->first, GL_UNSIGNED_INT,
                        (const void *)((size_t)part->first * sizeof *mesh->indices));
         glEnable(GL_CULL_FACE);
