@@ -5,7 +5,7 @@
 #include "near.h"
 
 #include "app/state.h"
-#include "platform/surface.h"
+#include "platform/events.h"
 #include "ui/font.h"
 
 struct blind {

@@ -1,5 +1,6 @@
-/// Queues events until the next frame, and counts clicks.
+/// What the surfaces of a desktop and of a browser share: their size, events until the next frame, and clicks.
 #include "platform/events.h"
+#include "base/need.h"
 #include <math.h>
 #include <string.h>
 
@@ -48,3 +49,23 @@ int clicks_count(struct clicks *clicks, const struct event *press, double time)
     *clicks = (struct clicks){.open = !again, .time = time, .x = press->x, .y = press->y, .button = press->button};
     return again ? 2 : 1;
 }
+
+struct platform *platform_blind(int width, int height, float scale)
+{
+    struct platform *platform = need_zeroed(1, sizeof *platform);
+    platform->width = width;
+    platform->height = height;
+    platform->scale = scale;
+    return platform;
+}
+
+void platform_size(const struct platform *platform, int *width, int *height, float *scale)
+{
+    *width = platform->width;
+    *height = platform->height;
+    *scale = platform->scale;
+}
+
+bool platform_keeps(const struct platform *platform) { return platform->keeps; }
+
+bool platform_is_window(const struct platform *platform) { return platform->window != NULL; }

@@ -1,8 +1,8 @@
-/// Queues events until the next frame, and counts clicks. Private to platform/.
+/// What the surfaces of a desktop and of a browser share: their size, events until the next frame, and clicks. Private to platform/.
 #ifndef PLATFORM_EVENTS_H
 #define PLATFORM_EVENTS_H
 
-#include "ui/event.h"
+#include "platform/platform.h"
 
 enum { QUEUE_EVENTS = 1024, QUEUE_PATH_BYTES = 1 << 16 };
 
@@ -18,6 +18,16 @@ struct event_buffer {
 struct event_queue {
     struct event_buffer buffers[2];
     int filling;
+};
+
+struct platform {
+    struct window *window;       ///< at most one of these two exists
+    struct offscreen *offscreen; ///< of a desktop
+    int width, height;           ///< of the framebuffer, device pixels
+    float scale;                 ///< device pixels per logical pixel
+    bool keeps;                  ///< platform_keeps()
+    struct event_queue queue;
+    char *clipboard; ///< of a browser, or without a window
 };
 
 /// Adds an event. A nearly full buffer keeps only the last of consecutive pointer positions, a full one drops events.

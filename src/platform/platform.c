@@ -4,8 +4,8 @@
 #include "base/hash.h"
 #include "base/need.h"
 #include "base/progress.h"
+#include "platform/events.h"
 #include "platform/process.h"
-#include "platform/surface.h"
 #include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -486,23 +486,20 @@ static bool is_wayland_lost(void)
 
 // --- the platform
 
-static struct platform *create_platform(void)
+/// Software drivers allocate and free triangle memory every frame. The C library keeps it, which saves a tenth of the CPU time.
+static void keep_memory(void)
 {
-    struct platform *platform = need_zeroed(1, sizeof *platform);
 #ifdef __GLIBC__
-    // Software drivers allocate and free triangle memory every frame. The C library keeps it, which saves a tenth of the CPU time.
     mallopt(M_MMAP_THRESHOLD, 32 << 20); // the largest allowed
     mallopt(M_TRIM_THRESHOLD, 64 << 20);
 #endif
-    return platform;
 }
 
 struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error)
 {
-    struct platform *platform = create_platform();
+    keep_memory();
     if (!glfwInit()) {
         fail_glfw(error, "no window opens");
-        free(platform);
         return NULL;
     }
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -524,10 +521,10 @@ struct platform *platform_window(int width, int height, const char *title, int v
     GLFWwindow *handle = glfwCreateWindow(width, height, title, NULL, NULL);
     if (!handle) {
         fail_glfw(error, "no window with OpenGL 3.3 opens");
-        free(platform);
         glfwTerminate();
         return NULL;
     }
+    struct platform *platform = platform_blind(width, height, 1);
     struct window *window = platform->window = need_zeroed(1, sizeof *window);
     window->handle = handle;
     window->units = 1.0f;
@@ -553,18 +550,10 @@ struct platform *platform_window(int width, int height, const char *title, int v
     return NULL;
 }
 
-struct platform *platform_blind(int width, int height, float scale)
-{
-    struct platform *platform = create_platform();
-    platform->width = width;
-    platform->height = height;
-    platform->scale = scale;
-    return platform;
-}
-
 struct platform *platform_offscreen(int width, int height, float scale, struct error *error)
 {
     struct platform *platform = platform_blind(width, height, scale);
+    keep_memory();
     platform->offscreen = need_zeroed(1, sizeof *platform->offscreen);
     platform->keeps = true;
     if (!open_any(platform->offscreen, error)) {
@@ -646,8 +635,6 @@ bool platform_fetches(const char *path)
     return false;
 }
 
-bool platform_keeps(const struct platform *platform) { return platform->keeps; }
-
 const struct event *platform_events(struct platform *platform, double seconds, int *count)
 {
     static const double idle = 0.1; ///< seconds; animations wait less
@@ -674,13 +661,6 @@ const struct event *platform_events(struct platform *platform, double seconds, i
     return events;
 }
 
-void platform_size(const struct platform *platform, int *width, int *height, float *scale)
-{
-    *width = platform->width;
-    *height = platform->height;
-    *scale = platform->scale;
-}
-
 void platform_swap(struct platform *platform)
 {
     struct window *window = platform->window;
@@ -705,8 +685,6 @@ void platform_swap(struct platform *platform)
     platform->keeps = memcmp(before, after, bytes) == 0;
     free(before);
 }
-
-bool platform_is_window(const struct platform *platform) { return platform->window != NULL; }
 
 void platform_title(struct platform *platform, const char *title)
 {

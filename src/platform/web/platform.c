@@ -15,13 +15,9 @@
 #include <sys/types.h>
 #include <sys/xattr.h>
 
-struct platform {
-    EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context; ///< 0 without a window
-    struct event_queue queue;
+struct window {
+    EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context;
     struct clicks clicks;
-    int width, height; ///< device pixels
-    float scale;       ///< device pixels per logical pixel
-    char *clipboard;
     enum mouse_cursor cursor;
     bool is_shown;         ///< since the first swap
     bool (*frame)(void *); ///< platform_run()'s
@@ -48,15 +44,6 @@ EM_JS(bool, page_waits, (void), { return Module.page.waits(); });
 EM_JS(void, page_resize, (void), { Module.page.resize(); });
 EM_JS(void, page_stopped, (void), { Module.page.stopped(); });
 
-struct platform *platform_blind(int width, int height, float scale)
-{
-    struct platform *platform = need_zeroed(1, sizeof *platform);
-    platform->width = width;
-    platform->height = height;
-    platform->scale = scale;
-    return platform;
-}
-
 struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error)
 {
     (void)width;
@@ -74,7 +61,9 @@ struct platform *platform_window(int width, int height, const char *title, int v
         return NULL;
     }
     shown = platform_blind(page_width(), page_height(), (float)page_scale());
-    shown->context = context;
+    shown->window = need_zeroed(1, sizeof *shown->window);
+    shown->window->context = context;
+    shown->keeps = true;
     platform_title(shown, title);
     return shown;
 }
@@ -95,8 +84,9 @@ struct platform *platform_offscreen(int width, int height, float scale, struct e
 void platform_destroy(struct platform *platform)
 {
     if (!platform) return;
-    if (platform->context) emscripten_webgl_destroy_context(platform->context);
+    if (platform->window) emscripten_webgl_destroy_context(platform->window->context);
     if (platform == shown) shown = NULL;
+    free(platform->window);
     free(platform->clipboard);
     free(platform);
 }
@@ -104,18 +94,18 @@ void platform_destroy(struct platform *platform)
 static EM_BOOL on_frame(double time, void *user)
 {
     (void)time;
-    struct platform *platform = user;
-    if (page_waits() || platform->frame(platform->user)) return EM_TRUE;
+    const struct window *window = user;
+    if (page_waits() || window->frame(window->user)) return EM_TRUE;
     page_stopped();
     return EM_FALSE;
 }
 
 void platform_run(struct platform *platform, bool (*frame)(void *), void *user)
 {
-    if (platform->context) {
-        platform->frame = frame;
-        platform->user = user;
-        emscripten_request_animation_frame_loop(on_frame, platform);
+    if (platform->window) {
+        platform->window->frame = frame;
+        platform->window->user = user;
+        emscripten_request_animation_frame_loop(on_frame, platform->window);
         emscripten_unwind_to_js_event_loop(); // leaves the stack as it is: `user` is there
     }
     while (frame(user)) continue;
@@ -123,24 +113,15 @@ void platform_run(struct platform *platform, bool (*frame)(void *), void *user)
 
 const struct event *platform_events(struct platform *platform, double seconds, int *count)
 {
-    (void)seconds;                        // the browser waits
-    if (platform->context) page_resize(); // just before a frame, since it clears the canvas
+    (void)seconds;                       // the browser waits
+    if (platform->window) page_resize(); // just before a frame, since it clears the canvas
     return event_queue_take(&platform->queue, count);
 }
 
-void platform_size(const struct platform *platform, int *width, int *height, float *scale)
-{
-    *width = platform->width;
-    *height = platform->height;
-    *scale = platform->scale;
-}
-
-bool platform_keeps(const struct platform *platform) { return platform->context != 0; }
-
 void platform_swap(struct platform *platform)
 {
-    if (!platform->is_shown) page_shown();
-    platform->is_shown = true;
+    if (!platform->window->is_shown) page_shown();
+    platform->window->is_shown = true;
 }
 
 double platform_refresh_rate(struct platform *platform)
@@ -149,21 +130,19 @@ double platform_refresh_rate(struct platform *platform)
     return 0;
 }
 
-bool platform_is_window(const struct platform *platform) { return platform->context != 0; }
-
 void platform_title(struct platform *platform, const char *title)
 {
-    if (platform->context) page_title(title);
+    if (platform->window) page_title(title);
 }
 
 void platform_describe(struct platform *platform, const char *text)
 {
-    if (platform->context) page_describe(text);
+    if (platform->window) page_describe(text);
 }
 
 void platform_toggle_fullscreen(struct platform *platform)
 {
-    if (platform->context) page_fullscreen();
+    if (platform->window) page_fullscreen();
 }
 
 const char *platform_clipboard(struct platform *platform) { return platform->clipboard; }
@@ -172,19 +151,19 @@ void platform_set_clipboard(struct platform *platform, const char *text)
 {
     free(platform->clipboard);
     platform->clipboard = need_text(text);
-    if (platform->context) page_copy(text);
+    if (platform->window) page_copy(text);
 }
 
 bool platform_in_page(void) { return true; }
 
 void platform_share(struct platform *platform, const char *scene)
 {
-    if (platform->context) page_share(scene);
+    if (platform->window) page_share(scene);
 }
 
 void platform_choose_file(struct platform *platform)
 {
-    if (platform->context) page_choose();
+    if (platform->window) page_choose();
 }
 
 bool platform_fetches(const char *path) { return shown && page_fetches(path); }
@@ -194,8 +173,8 @@ void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
     static const char *const names[] = {
         [CURSOR_ARROW] = "default",      [CURSOR_HAND] = "pointer", [CURSOR_HORIZONTAL] = "ew-resize",
         [CURSOR_VERTICAL] = "ns-resize", [CURSOR_MOVE] = "move",    [CURSOR_TEXT] = "text"};
-    if (!platform->context || cursor == platform->cursor) return;
-    platform->cursor = cursor;
+    if (!platform->window || cursor == platform->window->cursor) return;
+    platform->window->cursor = cursor;
     page_cursor(names[cursor]);
 }
 
@@ -255,7 +234,8 @@ EMSCRIPTEN_KEEPALIVE void web_button(int button, int action, unsigned mods, doub
                           .x = x,
                           .y = y,
                           .clicks = 1};
-    if (shown && event.action == ACTION_PRESS) event.clicks = clicks_count(&shown->clicks, &event, 1e-3 * time);
+    if (shown && event.action == ACTION_PRESS)
+        event.clicks = clicks_count(&shown->window->clicks, &event, 1e-3 * time);
     push(event);
 }
 
