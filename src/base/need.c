@@ -65,31 +65,23 @@ struct pool_block {
     max_align_t memory[];
 };
 
-/// SIZE_MAX, which no block has, if the number is too large.
-static size_t block_bytes(size_t count, size_t size)
+void *pool_try(struct pool *pool, size_t count, size_t size)
 {
     size_t bytes;
     const bool fits = !__builtin_mul_overflow(count, size, &bytes) &&
                       !__builtin_add_overflow(bytes, sizeof(struct pool_block), &bytes);
-    return fits ? bytes : SIZE_MAX;
-}
-
-static void *pool_add(struct pool *pool, struct pool_block *block)
-{
+    struct pool_block *block = fits ? calloc(1, bytes) : NULL;
     if (!block) return NULL;
     block->before = pool->last;
     pool->last = block;
     return block->memory;
 }
 
-void *pool_try(struct pool *pool, size_t count, size_t size)
-{
-    return pool_add(pool, calloc(1, block_bytes(count, size)));
-}
-
 void *pool_take(struct pool *pool, size_t count, size_t size)
 {
-    return pool_add(pool, need_zeroed(1, block_bytes(count, size)));
+    void *memory = pool_try(pool, count, size);
+    if (!memory) need_failed();
+    return memory;
 }
 
 char *pool_text(struct pool *pool, const char *first, const char *second, const char *third)

@@ -44,37 +44,35 @@ struct rect drawlist_push_clip(struct drawlist *list, struct rect r)
 
 void drawlist_set_clip(struct drawlist *list, struct rect clip) { list->clip = clip; }
 
-/// Appends a command with pixels in `bounds`. NULL if nothing would be visible or the list is full.
-static struct draw_command *add(struct drawlist *list, enum draw_kind kind, struct rect bounds, uint32_t color)
+/// Appends a command with pixels in `bounds` and its points or text (with a NUL), unless nothing would be visible or the list is full.
+static void add(struct drawlist *list, struct draw_command command, struct rect bounds, const void *data)
 {
-    bool finite = isfinite(bounds.x) && isfinite(bounds.y) && isfinite(bounds.w) && isfinite(bounds.h);
-    struct rect visible = rect_intersect(bounds, list->clip);
-    if (!finite || visible.w <= 0.0f || visible.h <= 0.0f || (color & 0xFFu) == 0) return NULL;
-    if (list->count == list->capacity) {
+    const bool finite = isfinite(bounds.x) && isfinite(bounds.y) && isfinite(bounds.w) && isfinite(bounds.h);
+    const bool is_text = command.kind == DRAW_TEXT;
+    const struct rect clip = list->clip, visible = rect_intersect(bounds, clip);
+    if (!finite || visible.w <= 0.0f || visible.h <= 0.0f || (command.color & 0xFFu) == 0) return;
+    const int room = is_text ? list->text_capacity - list->text_count - 1 : list->point_capacity - list->point_count;
+    if (list->count == list->capacity || command.count > room) {
         list->overflow = true;
-        return NULL;
+        return;
     }
-    struct draw_command *command = &list->commands[list->count];
-    *command = (struct draw_command){.kind = kind, .color = color, .bounds = visible, .clip = list->clip};
-    return command;
-}
-
-static void commit(struct drawlist *list, struct draw_command *command)
-{
-    uint64_t hash =
-        hash_word(HASH_START, (uint64_t)command->kind << 40 | (uint64_t)command->font << 32 | command->color);
-    const struct rect *clip = &command->clip;
-    const float numbers[] = {command->width, command->x, command->y, command->on, command->off,
-                             clip->x,        clip->y,    clip->w,    clip->h};
-    hash = hash_bytes(hash, numbers, sizeof numbers);
-    size_t first = (size_t)command->first, count = (size_t)command->count;
-    if (command->kind == DRAW_TEXT) {
-        hash = hash_bytes(hash, list->text + first, count);
+    const size_t bytes = (size_t)command.count * (is_text ? 1 : 2 * sizeof *list->points);
+    if (is_text) {
+        command.first = list->text_count;
+        memcpy(list->text + command.first, data, bytes + 1);
+        list->text_count += command.count + 1;
     } else {
-        hash = hash_bytes(hash, list->points + 2 * first, 2 * count * sizeof *list->points);
+        command.first = list->point_count;
+        memcpy(list->points + 2 * (size_t)command.first, data, bytes);
+        list->point_count += command.count;
     }
-    command->hash = hash;
-    list->count++;
+    const float numbers[] = {command.width, command.x, command.y, command.on, command.off,
+                             clip.x,        clip.y,    clip.w,    clip.h};
+    const uint64_t words = (uint64_t)command.kind << 40 | (uint64_t)command.font << 32 | command.color;
+    command.hash = hash_bytes(hash_bytes(hash_word(HASH_START, words), numbers, sizeof numbers), data, bytes);
+    command.bounds = visible;
+    command.clip = clip;
+    list->commands[list->count++] = command;
 }
 
 static struct rect bounds_of(const float *xy, int count, float margin)
@@ -92,38 +90,20 @@ static struct rect bounds_of(const float *xy, int count, float margin)
     return (struct rect){x0 - margin + sum, y0 - margin, x1 - x0 + 2.0f * margin, y1 - y0 + 2.0f * margin};
 }
 
-/// Copies the command's points into the pool.
-static void add_shape(struct drawlist *list, struct draw_command *command, const float *xy, int count)
-{
-    if (!command) return;
-    if (count > list->point_capacity - list->point_count) {
-        list->overflow = true;
-        return;
-    }
-    memcpy(list->points + 2 * (size_t)list->point_count, xy, 2 * (size_t)count * sizeof *xy);
-    command->first = list->point_count;
-    command->count = count;
-    list->point_count += count;
-    commit(list, command);
-}
-
 void drawlist_rect(struct drawlist *list, struct rect r, uint32_t color)
 {
-    const float corners[4] = {r.x, r.y, r.x + r.w, r.y + r.h};
-    if (r.w > 0.0f && r.h > 0.0f) add_shape(list, add(list, DRAW_RECT, r, color), corners, 2);
+    const struct draw_command command = {.kind = DRAW_RECT, .color = color, .count = 2};
+    if (r.w > 0.0f && r.h > 0.0f) add(list, command, r, (const float[]){r.x, r.y, r.x + r.w, r.y + r.h});
 }
 
 void drawlist_dashed(struct drawlist *list, const float *xy, int count, float width, float on, float off,
                      uint32_t color)
 {
     if (count < 2 || !(width > 0.0f)) return;
+    const struct draw_command command = {
+        .kind = DRAW_LINE, .color = color, .width = width, .on = on, .off = off, .count = count};
     // A mitre reaches twice the half-width, anti-aliasing one pixel more.
-    struct draw_command *command = add(list, DRAW_LINE, bounds_of(xy, count, width + 1.0f), color);
-    if (!command) return;
-    command->width = width;
-    command->on = on;
-    command->off = off;
-    add_shape(list, command, xy, count);
+    add(list, command, bounds_of(xy, count, width + 1.0f), xy);
 }
 
 void drawlist_line(struct drawlist *list, const float *xy, int count, float width, uint32_t color)
@@ -133,17 +113,14 @@ void drawlist_line(struct drawlist *list, const float *xy, int count, float widt
 
 void drawlist_band(struct drawlist *list, const float *xy, int count, float width, uint32_t color)
 {
-    if (count < 3 || !(width > 0.0f)) return;
-    struct draw_command *command = add(list, DRAW_BAND, bounds_of(xy, count, 0.5f * width + 1.0f), color);
-    if (!command) return;
-    command->width = width;
-    add_shape(list, command, xy, count);
+    const struct draw_command command = {.kind = DRAW_BAND, .color = color, .width = width, .count = count};
+    if (count >= 3 && width > 0.0f) add(list, command, bounds_of(xy, count, 0.5f * width + 1.0f), xy);
 }
 
 void drawlist_convex(struct drawlist *list, const float *xy, int count, uint32_t color)
 {
-    if (count < 3) return;
-    add_shape(list, add(list, DRAW_CONVEX, bounds_of(xy, count, 1.0f), color), xy, count);
+    const struct draw_command command = {.kind = DRAW_CONVEX, .color = color, .count = count};
+    if (count >= 3) add(list, command, bounds_of(xy, count, 1.0f), xy);
 }
 
 enum { CORNER_MAX = 9 };
@@ -205,26 +182,13 @@ void drawlist_circle(struct drawlist *list, const float middle[2], float radius,
 void drawlist_text(struct drawlist *list, float x, float y, enum font font, float size, uint32_t color,
                    const char *utf8)
 {
-    if (!*utf8) return;
     // Glyphs and rounding to device pixels reach beyond the advance widths.
-    const size_t length = strlen(utf8);
     const float width = font_width(font, size, utf8);
     const struct rect bounds = {x - 0.3f * size - 1.0f, y - 1.3f * size, width + 0.6f * size + 2.0f, 1.8f * size};
-    struct draw_command *command = add(list, DRAW_TEXT, bounds, color);
-    if (!command) return;
-    if (length + 1 > (size_t)(list->text_capacity - list->text_count)) {
-        list->overflow = true;
-        return;
-    }
-    command->x = x;
-    command->y = y;
-    command->width = size;
-    command->font = font;
-    command->first = list->text_count;
-    command->count = (int)length;
-    memcpy(list->text + command->first, utf8, length + 1);
-    list->text_count += (int)length + 1;
-    commit(list, command);
+    const int count = (int)strlen(utf8);
+    const struct draw_command command = {
+        .kind = DRAW_TEXT, .color = color, .width = size, .font = font, .x = x, .y = y, .count = count};
+    if (count > 0) add(list, command, bounds, utf8);
 }
 
 void drawlist_text_fit(struct drawlist *list, float x, float y, float width, enum font font, float size,
