@@ -114,20 +114,12 @@ static enum film_state continue_job(struct export_job *job, bool wait)
         if (!job->good) return FILM_FAILED;
         if (!is_film(job->request.path)) return FILM_DONE;
     }
-    if (atomic_load(&job->stop)) {
-        fail(&job->error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
-        return FILM_FAILED;
-    }
     if (!job->film) {
         const struct export_options options = options_of(job);
         job->film = film_open(&job->opened, job->request.path, &options, &job->error);
         return job->film ? FILM_RUNS : FILM_FAILED;
     }
-    enum film_state state = film_step(job->film, wait, &job->error);
-    long done, total;
-    film_progress(job->film, &done, &total);
-    atomic_store(&job->total, total);
-    atomic_store(&job->done, done);
+    const enum film_state state = film_step(job->film, wait, &job->error);
     if (state == FILM_DONE) film_report(job->film, &job->report);
     return state;
 }

@@ -602,6 +602,8 @@ struct film {
     double first, spacing,
         period; ///< frames: the first picture's, the step, and the loop's length (0: no loop)
     const struct opened *opened;
+    bool (*proceed)(void *user, long done, long total);
+    void *user;
     struct editor *editor;
     struct picture *picture;
     struct error note; ///< of the background
@@ -662,6 +664,8 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
     film->kind = writers[film->format->film].kind;
     film->path = path;
     film->opened = opened;
+    film->proceed = options->proceed;
+    film->user = options->user;
     film->editor = editor_create(NULL);
     if (file_check_place(path, error) && choose_shape(film, opened->document, options, error) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
@@ -686,6 +690,10 @@ static void draw_next(struct film *film)
 
 enum film_state film_step(struct film *film, bool wait, struct error *error)
 {
+    if (film->proceed && !film->proceed(film->user, film->done, film->shape.count)) {
+        fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
+        return FILM_FAILED;
+    }
     if (film->done == film->shape.count) return film->kind->finish(film->file, wait, &film->bytes, error);
     if (!film->pixels) {
         if (film->drawn == film->done) draw_next(film);
@@ -698,12 +706,6 @@ enum film_state film_step(struct film *film, bool wait, struct error *error)
     film->pixels = NULL;
     film->done++;
     return FILM_RUNS;
-}
-
-void film_progress(const struct film *film, long *done, long *total)
-{
-    *done = film->done;
-    *total = film->shape.count;
 }
 
 void film_report(const struct film *film, struct export_report *report)
@@ -737,14 +739,7 @@ bool film_write(const struct opened *opened, const char *path, const struct expo
     if (!platform) return false;
     struct film *film = film_open(opened, path, options, error);
     enum film_state state = film ? FILM_RUNS : FILM_FAILED;
-    while (state == FILM_RUNS) {
-        state = film_step(film, true, error);
-        if (state == FILM_RUNS && options->proceed &&
-            !options->proceed(options->user, film->done > 0 ? film->done : 1, film->shape.count)) {
-            fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
-            state = FILM_FAILED;
-        }
-    }
+    while (state == FILM_RUNS) state = film_step(film, true, error);
     if (state == FILM_DONE) film_report(film, report);
     film_close(film);
     platform_destroy(platform);

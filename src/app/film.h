@@ -19,11 +19,9 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
 
 enum film_state { FILM_RUNS, FILM_DONE, FILM_FAILED };
 
-/// Writes at most one picture. Without `wait` it waits neither for the graphics driver nor for ffmpeg.
+/// Writes at most one picture, if the options' proceed() agrees. Without `wait` it waits neither for the graphics driver nor for ffmpeg.
 enum film_state film_step(struct film *film, bool wait, struct error *error);
 
-/// Pictures done, and their total.
-void film_progress(const struct film *film, long *done, long *total);
 /// Size, number and names of the files; call after FILM_DONE.
 void film_report(const struct film *film, struct export_report *report);
 /// Leaves no files unless done. NULL is fine.

@@ -22,7 +22,7 @@ struct job {
 static bool show_frames(void *user, long done, long total)
 {
     struct job *job = user;
-    if (!job->quiet) progress_show(&job->progress, done, total);
+    if (!job->quiet) progress_show(&job->progress, done > 0 ? done : 1, total);
     return !process_was_told_to_end();
 }
 
