@@ -210,54 +210,49 @@ int skirt_next(const struct posed *mesh, const struct posed_part *part, int from
     return part->end;
 }
 
-/// The surface at one end of an edge, with the normal towards the eye if `back`. Without normals it is the triangle's.
-static void start_end(const struct posed *mesh, const struct posed_part *part, int corner, bool back,
-                      struct skirt_vertex *out)
-{
-    const uint32_t vertex = mesh->indices[corner], *const triangle = mesh->indices + corner / 3 * 3;
-    vec3s normal = vec3_from(mesh->normal[vertex]);
-    if (glms_vec3_norm2(normal) == 0)
-        normal = glms_vec3_scale(glms_vec3_normalize(triangle_normal(
-                                     mesh->place[triangle[0]], mesh->place[triangle[1]], mesh->place[triangle[2]])),
-                                 part->mirrored ? -1.0f : 1.0f);
-    *out = (struct skirt_vertex){.look = mesh->looks[vertex]};
-    for (int k = 0; k < 3; k++) {
-        out->place[k] = mesh->place[vertex][k];
-        out->normal[k] = back ? -normal.raw[k] : normal.raw[k];
-    }
-}
-
 void skirt_hang(const struct posed *mesh, const struct posed_part *part, int corner, const float eye[3], float seam,
-                struct skirt_vertex out[SKIRT_CORNERS])
+                float (*place)[3], float (*normal)[3], struct posed_look *look)
 {
     const bool front = mesh->front[corner / 3], open = mesh->neighbours[corner] < 0;
     const float side = front == part->mirrored ? -1.0f : 1.0f; // the triangle is to the left of its edge
-    start_end(mesh, part, corner, !front, &out[0]);
-    start_end(mesh, part, next_corner(corner), !front, &out[1]);
+    const uint32_t *const triangle = mesh->indices + corner / 3 * 3;
+    for (int e = 0; e < 2;
+         e++) { // the edge's ends, with normals towards the eye; without normals they are the triangle's
+        const uint32_t vertex = mesh->indices[e ? next_corner(corner) : corner];
+        vec3s out = vec3_from(mesh->normal[vertex]);
+        if (glms_vec3_norm2(out) == 0)
+            out = glms_vec3_scale(glms_vec3_normalize(triangle_normal(
+                                      mesh->place[triangle[0]], mesh->place[triangle[1]], mesh->place[triangle[2]])),
+                                  part->mirrored ? -1.0f : 1.0f);
+        look[e] = mesh->looks[vertex];
+        glm_vec3_copy(mesh->place[vertex], place[e]);
+        glm_vec3_scale(out.raw, front ? 1.0f : -1.0f, normal[e]);
+    }
 
     // Texture coordinates move half a pixel into the triangle: a lookup at its edge may hit the opposite side of the picture.
     const uint32_t third = mesh->indices[next_corner(next_corner(corner))];
-    const vec3s from = vec3_from(out[0].place), edge = glms_vec3_sub(vec3_from(out[1].place), from);
+    const vec3s from = vec3_from(place[0]), edge = glms_vec3_sub(vec3_from(place[1]), from);
     const float area = glms_vec3_norm(glms_vec3_cross(edge, glms_vec3_sub(vec3_from(mesh->place[third]), from)));
     const float pixel = seam * glms_vec3_distance(from, vec3_from(eye));
     const float share = fminf(0.5f * pixel * glms_vec3_norm(edge) / fmaxf(area, 1e-12f), 0.5f);
     for (int e = 0; e < 2; e++) {
-        for (int k = 0; k < 2; k++) out[e].look.uv[k] += share * (mesh->looks[third].uv[k] - out[e].look.uv[k]);
+        for (int k = 0; k < 2; k++) look[e].uv[k] += share * (mesh->looks[third].uv[k] - look[e].uv[k]);
 
         // One pixel out, across the line of sight: along the vertex normal, so that skirts of consecutive edges meet. If that does not point
         // away from the edge, across the edge.
-        const vec3s ray = glms_vec3_sub(vec3_from(out[e].place), vec3_from(eye)), normal = vec3_from(out[e].normal);
+        const vec3s ray = glms_vec3_sub(vec3_from(place[e]), vec3_from(eye)), up = vec3_from(normal[e]);
         const vec3s off_edge = glms_vec3_scale(glms_vec3_normalize(glms_vec3_cross(ray, edge)), side);
-        const float depth = glms_vec3_dot(normal, ray) / glms_vec3_norm2(ray);
-        const vec3s along = glms_vec3_normalize(glms_vec3_sub(normal, glms_vec3_scale(ray, depth)));
+        const float depth = glms_vec3_dot(up, ray) / glms_vec3_norm2(ray);
+        const vec3s along = glms_vec3_normalize(glms_vec3_sub(up, glms_vec3_scale(ray, depth)));
         const vec3s way = open || glms_vec3_dot(along, off_edge) < 0.3f ? off_edge : along;
-        const vec3s off = glms_vec3_scale(way, seam * glms_vec3_norm(ray));
-        struct skirt_vertex *outer = &out[3 - e];
-        *outer = out[e];
-        outer->look.cover = 0.0f;
-        for (int k = 0; k < 3; k++) outer->place[k] += off.raw[k];
+        vec3s off = glms_vec3_scale(way, seam * glms_vec3_norm(ray));
+        const int outer = 3 - e;
+        glm_vec3_add(place[e], off.raw, place[outer]);
+        glm_vec3_copy(normal[e], normal[outer]);
+        look[outer] = look[e];
+        look[outer].cover = 0.0f;
     }
     for (int c = 0; mesh->neighbours[corner] == NEIGHBOUR_CUT && c < SKIRT_CORNERS; c++) {
-        for (int k = 0; k < 3; k++) out[c].place[k] += LIFT * seam * (eye[k] - out[c].place[k]);
+        for (int k = 0; k < 3; k++) place[c][k] += LIFT * seam * (eye[k] - place[c][k]);
     }
 }

@@ -57,20 +57,14 @@ bool posed_map(struct posed *mesh, const struct stage_model *shown);
 
 // Skirts.
 
-/// A corner of a skirt.
-struct skirt_vertex {
-    float place[3], normal[3]; ///< world
-    struct posed_look look;
-};
-
 enum { SKIRT_CORNERS = 4 }; ///< per edge
 
 /// The first outline edge of a part, from corner `from` on: the mesh ends there or turns away from the eye. Returns the part's end if there
 /// is none.
 int skirt_next(const struct posed *mesh, const struct posed_part *part, int from);
 
-/// The strip along the edge at a corner. `seam` is metres per pixel at a distance of 1 m.
+/// The SKIRT_CORNERS of the strip along the edge at a corner. `seam` is metres per pixel at a distance of 1 m.
 void skirt_hang(const struct posed *mesh, const struct posed_part *part, int corner, const float eye[3], float seam,
-                struct skirt_vertex out[SKIRT_CORNERS]);
+                float (*place)[3], float (*normal)[3], struct posed_look *look);
 
 #endif

@@ -395,13 +395,9 @@ static void draw_skirts(const struct stage_renderer *stage, const struct posed *
         if (program_of(part, true) != program) continue;
         use_material(stage, &stage->programs[program], part, true);
         for (int i = skirt_next(mesh, part, part->first); i < part->end; i = skirt_next(mesh, part, i + 1)) {
-            struct skirt_vertex hung[SKIRT_CORNERS];
-            skirt_hang(mesh, part, i, eye, seam, hung);
-            for (int c = 0, at = SKIRT_CORNERS * count; c < SKIRT_CORNERS; c++, at++) {
-                memcpy(stage->skirts->place[at], hung[c].place, sizeof hung[c].place);
-                memcpy(stage->skirts->normal[at], hung[c].normal, sizeof hung[c].normal);
-                stage->skirts->look[at] = hung[c].look;
-            }
+            struct skirts *skirts = stage->skirts;
+            const int at = SKIRT_CORNERS * count;
+            skirt_hang(mesh, part, i, eye, seam, skirts->place + at, skirts->normal + at, skirts->look + at);
             if (++count < EDGES) continue;
             draw_edges(stage, count);
             count = 0;

@@ -291,9 +291,10 @@ static void outline(const struct posed *mesh, const float eye[3])
 {
     for (int p = 0; p < mesh->part_count; p++) {
         const struct posed_part *part = &mesh->parts[p];
-        struct skirt_vertex skirt[SKIRT_CORNERS];
+        float place[SKIRT_CORNERS][3], normal[SKIRT_CORNERS][3];
+        struct posed_look look[SKIRT_CORNERS];
         for (int i = part->first - 1; (i = skirt_next(mesh, part, i + 1)) < part->end;)
-            skirt_hang(mesh, part, i, eye, 1e-3f, skirt);
+            skirt_hang(mesh, part, i, eye, 1e-3f, place, normal, look);
     }
 }
 
