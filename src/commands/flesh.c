@@ -102,15 +102,6 @@ static bool choose_part(struct flesh *f, const struct job *job, struct error *er
     return true;
 }
 
-/// How much of a vertex is of the part by its paint: as far as one coordinate has its amplitude raised.
-static double painted_share(const struct paint *paint, int vertex)
-{
-    float most = 0;
-    for (int c = 0; c < paint->coordinates; c++)
-        most = fmaxf(most, paint->values[(size_t)c * (size_t)paint->vertices + (size_t)vertex][0]);
-    return fmin((double)most / whole, 1);
-}
-
 /// Finds the vertices of the node's mesh and how much of each is of the part. Returns how many are; −1: the paint is of another mesh.
 static int find_share(struct flesh *f, int node)
 {
@@ -134,7 +125,12 @@ static int find_share(struct flesh *f, int node)
         for (int i = 0; i < part->vertex_count; i++, row++) {
             f->part_of[row] = part;
             f->row_of[row] = i;
-            f->share[row] = f->paint ? painted_share(f->paint, first + i) : 0;
+            f->share[row] = 0;
+            for (int c = 0; f->paint && c < f->paint->coordinates;
+                 c++) { // as far as a coordinate has its amplitude raised
+                const size_t at = (size_t)c * (size_t)f->paint->vertices + (size_t)(first + i);
+                f->share[row] = fmax(f->share[row], (double)f->paint->values[at][0] / whole);
+            }
             for (int k = 0; k < GLTF_INFLUENCES; k++) {
                 int joint;
                 const double weight = follows(f, row, k, &joint);
@@ -340,7 +336,6 @@ static bool shake(struct shakes *s, struct flesh *f, struct shaking *by, struct 
 {
     const float(*rest)[3] = (const float(*)[3])f->surface.position;
     const size_t vertices = (size_t)f->surface.vertex_count;
-    double(*x)[3] = pool_take(&s->pool, (size_t)soft->body.node_count + 1, sizeof *x);
     s->frames = shaking_frames(by);
     s->vertices = f->surface.vertex_count;
     if (!need_has_room(3 * (size_t)s->frames * vertices * sizeof *rest)) return fail_no_memory(error, by->name);
@@ -352,16 +347,16 @@ static bool shake(struct shakes *s, struct flesh *f, struct shaking *by, struct 
         for (int t = 0; t < s->frames; t++) {
             float(*at)[3] = s->motion[axis] + (size_t)t * vertices;
             memcpy(at, rest, vertices * sizeof *at);
-            record_embed(&record, t, soft, (const double[3]){0}, x, at);
+            record_embed(&record, t, soft, (const double[3]){0}, at);
             for (size_t n = 0; n < 3 * vertices; n++) {
                 const double way = ((double)at[n / 3][n % 3] - (double)rest[n / 3][n % 3]) * f->moves[n / 3];
                 at[n / 3][n % 3] = (float)((double)rest[n / 3][n % 3] + way);
                 s->power += way * way;
             }
         }
-        free(record.place);
         if (record.left >= 0) // the other shakes need about the same steps
             by->substeps = 4 * record.left < by->accuracy ? (record.substeps + 1) / 2 : record.substeps;
+        record_free(&record);
     }
     return true;
 }
@@ -635,36 +630,6 @@ static bool soften(struct job *job, struct flesh *f, struct shakes *s, struct er
     return done;
 }
 
-static bool make_flesh(struct job *job, struct error *error)
-{
-    struct flesh f = {0};
-    struct shakes *s = need_zeroed(1, sizeof *s);
-    progress_end_when_interrupted();
-    progress_show_stages(job->by.verbose);
-    bool done = gltf_read_stored(job->input, &f.gltf, error);
-    if (done) {
-        done = (gltf_pose_create(&f.gltf, &f.rest) || fail_no_memory(error, job->input)) &&
-               choose_part(&f, job, error) && choose_mesh(&f, job, error);
-        if (done) {
-            make_surface(&f);
-            make_lines(&f, job->part.count > 0);
-            measure(&f, job->depth);
-            done = soften(job, &f, s, error) && find_poles(s, &job->by, error);
-        }
-        if (done) {
-            find_coordinates(s, &job->by);
-            done = write_flesh(job, &f, s, error);
-        }
-        gltf_pose_free(&f.rest);
-        gltf_free(&f.gltf);
-    }
-    paint_drop(f.paint);
-    pool_free(&s->pool);
-    pool_free(&f.pool);
-    free(s);
-    return done;
-}
-
 int command_flesh(int argc, char **argv)
 {
     struct job job = {.depth = -1, .modes = 3, .by = shaking_default()};
@@ -706,6 +671,32 @@ int command_flesh(int argc, char **argv)
     else if (!path_has_end(job.output, ".glb"))
         wrong = "--output: expected a name ending in .glb";
     if (wrong) return options_wrong(&usage, "%s", wrong);
+
     struct error error;
-    return options_end(make_flesh(&job, &error), &error);
+    struct flesh f = {0};
+    struct shakes *s = need_zeroed(1, sizeof *s);
+    progress_end_when_interrupted();
+    progress_show_stages(job.by.verbose);
+    bool done = gltf_read_stored(job.input, &f.gltf, &error);
+    if (done) {
+        done = (gltf_pose_create(&f.gltf, &f.rest) || fail_no_memory(&error, job.input)) &&
+               choose_part(&f, &job, &error) && choose_mesh(&f, &job, &error);
+        if (done) {
+            make_surface(&f);
+            make_lines(&f, job.part.count > 0);
+            measure(&f, job.depth);
+            done = soften(&job, &f, s, &error) && find_poles(s, &job.by, &error);
+        }
+        if (done) {
+            find_coordinates(s, &job.by);
+            done = write_flesh(&job, &f, s, &error);
+        }
+        gltf_pose_free(&f.rest);
+        gltf_free(&f.gltf);
+    }
+    paint_drop(f.paint);
+    pool_free(&s->pool);
+    pool_free(&f.pool);
+    free(s);
+    return options_end(done, &error);
 }

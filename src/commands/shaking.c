@@ -72,61 +72,58 @@ static double estimate_error(const struct record *fine, const struct record *coa
     return motion > 0 ? sqrt(difference / motion) / (first_order ? ratio - 1 : ratio * ratio - 1) : 0;
 }
 
-/// Simulates until the error is small enough or the budget is used up. `fine` ends as the motion.
-static bool simulate_to_accuracy(const struct shaking *s, struct soft *soft, struct record *fine,
-                                 struct record *coarse, struct error *error)
+bool record_create(struct record *record, const struct shaking *by, struct soft *soft, struct error *error)
 {
     enum { FINEST = 512, STEPS_A_PERIOD = 48 };
     static const double LEAST = 1.5; // steps shorter by less tell too little
-    double used = 0;
-    const struct base_drive *drive = s->loads.drive;
-    double fastest = soft_frequency(soft); // of what is known
-    if (drive && drive->kind != DRIVE_TRACK)
-        fastest = fmax(fastest, drive->frequency * (drive->kind == DRIVE_SWEEP ? 2 : 1));
-    fine->substeps = s->substeps ? s->substeps : (int)fmax(1, ceil(STEPS_A_PERIOD * fastest / s->fps));
-    if (!simulate_once(s, soft, fine, error)) return false;
-    for (double next = 2, left = -1; !s->substeps && (left < 0 || left > s->accuracy);) {
-        used += fine->cost;
-        // Shorter steps need fewer iterations each, so the cost grows at most in proportion.
-        if (left >= 0) next = fmin(next, (1e6 * s->budget - used) / fine->cost);
-        int finer = (int)ceil(fine->substeps * next);
-        if (left >= 0 && (finer > FINEST || next < LEAST)) return true;
-        struct record swap = *coarse;
-        *coarse = *fine;
-        *fine = swap;
-        fine->substeps = finer;
-        if (!simulate_once(s, soft, fine, error)) return false;
-        fine->left = left = estimate_error(fine, coarse, soft->body.mass);
-        next = fmax(LEAST, fmin(4, 1.1 * sqrt(left / s->accuracy)));
-        if (s->verbose) fprintf(stderr, "%d steps a frame: error %.2g %%\n", fine->substeps, 100 * left);
-    }
-    return true;
-}
-
-bool record_create(struct record *record, const struct shaking *by, struct soft *soft, struct error *error)
-{
     *record = (struct record){.frames = shaking_frames(by), .nodes = soft->body.node_count, .left = -1};
-    struct record coarse = *record;
     const size_t count = (size_t)record->frames * (size_t)record->nodes;
     if (!need_has_room(2 * count * sizeof *record->place)) return fail_no_memory(error, by->name);
+    struct record coarse = *record;
     record->place = need_zeroed(count, sizeof *record->place);
     coarse.place = need_zeroed(count, sizeof *coarse.place);
-    const bool done = simulate_to_accuracy(by, soft, record, &coarse, error);
+    const struct base_drive *drive = by->loads.drive;
+    double fastest = soft_frequency(soft), used = 0; // of what is known; of the budget
+    if (drive && drive->kind != DRIVE_TRACK)
+        fastest = fmax(fastest, drive->frequency * (drive->kind == DRIVE_SWEEP ? 2 : 1));
+    record->substeps = by->substeps ? by->substeps : (int)fmax(1, ceil(STEPS_A_PERIOD * fastest / by->fps));
+    bool done = simulate_once(by, soft, record, error);
+    for (double next = 2, left = -1; done && !by->substeps && (left < 0 || left > by->accuracy);) {
+        used += record->cost;
+        // Shorter steps need fewer iterations each, so the cost grows at most in proportion.
+        if (left >= 0) next = fmin(next, (1e6 * by->budget - used) / record->cost);
+        const int finer = (int)ceil(record->substeps * next);
+        if (left >= 0 && (finer > FINEST || next < LEAST)) break;
+        const struct record swap = coarse;
+        coarse = *record;
+        *record = swap;
+        record->substeps = finer;
+        done = simulate_once(by, soft, record, error);
+        if (!done) break;
+        record->left = left = estimate_error(record, &coarse, soft->body.mass);
+        next = fmax(LEAST, fmin(4, 1.1 * sqrt(left / by->accuracy)));
+        if (by->verbose) fprintf(stderr, "%d steps a frame: error %.2g %%\n", record->substeps, 100 * left);
+    }
     free(coarse.place);
-    if (done) return true;
+    if (done) record->moved = need((size_t)record->nodes + 1, sizeof *record->moved);
+    if (!done) record_free(record);
+    return done;
+}
+
+void record_free(struct record *record)
+{
     free(record->place);
-    record->place = NULL;
-    return false;
+    free(record->moved);
 }
 
 void record_embed(const struct record *record, int frame, const struct soft *soft, const double offset[3],
-                  double (*x)[3], float (*position)[3])
+                  float (*position)[3])
 {
     for (int i = 0; i < record->nodes; i++) {
         const float *place = record->place[(size_t)frame * (size_t)record->nodes + (size_t)i];
-        for (int c = 0; c < 3; c++) x[i][c] = (double)place[c] + offset[c];
+        for (int c = 0; c < 3; c++) record->moved[i][c] = (double)place[c] + offset[c];
     }
-    lattice_embed(&soft->lattice, (const double(*)[3])x, position);
+    lattice_embed(&soft->lattice, (const double(*)[3])record->moved, position);
 }
 
 // --- options

@@ -45,18 +45,21 @@ int shaking_frames(const struct shaking *by);
 /// The motion of the nodes, and how it was computed.
 struct record {
     int frames, nodes, substeps;
-    bool calmed;       ///< some steps were first order
-    double cost;       ///< element-steps
-    double left;       ///< relative error, −1 if unknown
-    float (*place)[3]; ///< frames × nodes, relative to the base; the caller frees it
+    bool calmed;        ///< some steps were first order
+    double cost;        ///< element-steps
+    double left;        ///< relative error, −1 if unknown
+    float (*place)[3];  ///< frames × nodes, relative to the base
+    double (*moved)[3]; ///< record_embed()'s
 };
 
-/// Simulates until the error is small enough or the budget is used up; NULL in `place` if it fails. Of `soft` it changes only the body's
+/// Simulates until the error is small enough or the budget is used up. Of `soft` it changes only the body's
 /// scratch memory. Errors: no rest under gravity, an unstable motion, not enough memory.
 bool record_create(struct record *record, const struct shaking *by, struct soft *soft, struct error *error);
 
-/// Vertex positions of a frame with the nodes moved on by `offset`. Vertices outside the lattice keep theirs. `x` has room for all nodes.
+void record_free(struct record *record);
+
+/// Vertex positions of a frame with the nodes moved on by `offset`. Vertices outside the lattice keep theirs.
 void record_embed(const struct record *record, int frame, const struct soft *soft, const double offset[3],
-                  double (*x)[3], float (*position)[3]);
+                  float (*position)[3]);
 
 #endif

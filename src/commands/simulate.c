@@ -42,19 +42,17 @@ static bool simulate_shake(const struct job *job, struct soft *soft, const struc
     bool good = record_create(&record, &job->by, soft, error);
     if (good) {
         float(*position)[3] = need_zeroed((size_t)vertices + 1, sizeof *position);
-        double(*x)[3] = need_zeroed((size_t)record.nodes + 1, sizeof *x);
         memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position);
         for (int frame = 0; frame < frames && !ferror(output.stream); frame++) {
             const double base = job->world && drive ? drive_place(drive, frame / job->by.fps) : 0;
             double offset[3] = {0};
             for (int c = 0; c < 3 && drive; c++) offset[c] = base * drive->direction[c];
-            record_embed(&record, frame, soft, offset, x, position);
+            record_embed(&record, frame, soft, offset, position);
             fwrite(position, sizeof *position, (size_t)vertices, output.stream);
             progress_report("writing the motion", frame + 1, frames);
         }
         free(position);
-        free(x);
-        free(record.place);
+        record_free(&record);
         good = file_output_commit(&output, error);
     } else {
         file_output_discard(&output);

@@ -116,7 +116,7 @@ TEST(a_coordinate_answers_the_base_as_the_body_does)
 
         // Along Re Ñ over the last three periods: of the body, and of Re(x Ñ) of the coordinate.
         double complex body = 0, swing = 0;
-        double q = 0, v = 0, norm = 0, turned = 0, (*x)[3] = calloc((size_t)record.nodes, sizeof *x);
+        double q = 0, v = 0, norm = 0, turned = 0;
         float(*at)[3] = calloc(VERTICES, sizeof *at);
         const double omega = 2 * M_PI * c->frequency, decay = c->damping * omega,
                      g = c->base[0] * direction[0] + c->base[1] * direction[1];
@@ -127,7 +127,7 @@ TEST(a_coordinate_answers_the_base_as_the_body_does)
         for (int frame = 0; frame < record.frames; frame++) {
             const double complex wave = cexp(-2 * M_PI * I * frame / 24);
             double along = 0;
-            record_embed(&record, frame, &soft, (const double[3]){0}, x, at);
+            record_embed(&record, frame, &soft, (const double[3]){0}, at);
             for (int n = 0; n < 3 * VERTICES; n++)
                 along += (double)(at[n / 3][n % 3] - position[n / 3][n % 3]) * (double)c->re[n / 3][n % 3];
             if (frame >= record.frames - 72) {
@@ -146,8 +146,7 @@ TEST(a_coordinate_answers_the_base_as_the_body_does)
         assert_near(cabs(ratio), 1, 0.1);
         assert_near(carg(ratio) * 180 / M_PI, 0, 10);
         free(at);
-        free(x);
-        free(record.place);
+        record_free(&record);
         soft_free(&soft);
     }
     character_free(&character);
