@@ -19,7 +19,6 @@
 #include "base/error.h"
 #include "ui/event.h"
 #include <stdint.h>
-#include <stdio.h>
 
 struct replay_header {
     int width, height;

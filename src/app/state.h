@@ -12,7 +12,6 @@
 #include "scene/evaluate.h"
 #include "scene/history.h"
 #include "timing/framelog.h"
-#include "ui/theme.h"
 #include <stdbool.h>
 #include <stdint.h>
 

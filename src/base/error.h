@@ -3,7 +3,6 @@
 #define BASE_ERROR_H
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

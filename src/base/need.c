@@ -1,7 +1,6 @@
 /// Ends the program if memory runs out.
 #include "base/need.h"
 #include <stdatomic.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "maths/maths.h"
-#include <stddef.h>
 
 /// Writes width × height pixels of four bytes (R, G, B, A; top row first) as a PNG, atomically like file_write_atomic().
 bool png_write(const char *path, int width, int height, const unsigned char *rgba, struct error *error);

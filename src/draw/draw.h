@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "ui/drawlist.h"
 #include "ui/stage.h"
-#include <stdint.h>
 
 struct draw;
 

@@ -4,7 +4,6 @@
 #define UI_DRAWLIST_H
 
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdint.h>
 
 struct rect {

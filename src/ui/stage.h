@@ -9,7 +9,6 @@
 #include "model/gltf.h"
 #include "ui/drawlist.h"
 #include "ui/theme.h"
-#include <stddef.h>
 
 enum {
     STAGE_MAX_TAILS = 8,

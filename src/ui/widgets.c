@@ -1,4 +1,4 @@
-/// Widgets: focus, layout, scrolling and hit-testing; labels, buttons, choices, icons and popups. What is typed or dragged is in
+/// Widgets: focus, layout, scrolling and hit-testing; labels, buttons, choices, icons, popups and tooltips. What is typed or dragged is in
 /// widgets_edit.c.
 #include "ui/widgets.h"
 #include "base/error.h"
@@ -58,8 +58,7 @@ void ui_begin_find(struct ui *ui, struct rect area, const char *name, const doub
 {
     begin_pass(ui, UI_PASS_FIND, area);
     ui->find = ui_hash(name);
-    ui->find_has_value = value != NULL;
-    ui->find_value = value ? *value : 0;
+    ui->find_value = value ? *value : NAN;
 }
 
 /// The focused widget's place among the last pass's; -1: none.
@@ -887,4 +886,75 @@ int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, 
     ui_popup_end(ui);
     if (picked >= 0) ui_popup_close(ui);
     return picked;
+}
+
+// --- when and where tooltips appear, and how they look
+
+enum { TIP_WIDTH = 260, TIP_LINE = 16, TIP_PAD_X = 8, TIP_PAD_Y = 5, TIP_BELOW = 6, TIP_MARGIN = 4 };
+
+static const double TIP_WAIT = 0.5; ///< seconds the pointer must rest
+
+void tooltip_offer(struct tooltip *tooltip, const char *text, float x, float y, struct rect at)
+{
+    const bool moved = x != tooltip->x || y != tooltip->y;
+    const bool elsewhere = !moved && (at.x != tooltip->at.x || at.y != tooltip->at.y);
+    if (text != tooltip->text || elsewhere) {
+        *tooltip = (struct tooltip){.text = text, .at = at, .x = x, .y = y};
+    } else if (moved && !tooltip_is_shown(tooltip)) {
+        tooltip->rest = 0;
+        tooltip->at = at;
+    }
+    tooltip->x = x;
+    tooltip->y = y;
+}
+
+void tooltip_dismiss(struct tooltip *tooltip) { tooltip->spent = true; }
+
+void tooltip_advance(struct tooltip *tooltip, double dt)
+{
+    if (tooltip_waits(tooltip)) tooltip->rest += dt;
+}
+
+bool tooltip_is_shown(const struct tooltip *tooltip)
+{
+    return tooltip->text && !tooltip->spent && tooltip->rest >= TIP_WAIT;
+}
+
+bool tooltip_waits(const struct tooltip *tooltip)
+{
+    return tooltip->text && !tooltip->spent && tooltip->rest < TIP_WAIT;
+}
+
+static float tip_width(struct rect window) { return fminf(TIP_WIDTH, window.w - 2 * TIP_MARGIN) - 2 * TIP_PAD_X; }
+
+struct rect tooltip_box(const struct tooltip *tooltip, struct rect window)
+{
+    const float width = tip_width(window), whole = font_width(FONT_LABEL, THEME_TEXT_SMALL, tooltip->text);
+    const char *rest = tooltip->text;
+    int lines = 0;
+    for (; *rest; lines++) font_take_line(THEME_TEXT_SMALL, width, &rest);
+    const float w = fminf(ceilf(whole), width) + 2 * TIP_PAD_X, h = (float)(lines * TIP_LINE + 2 * TIP_PAD_Y);
+    const struct rect *at = &tooltip->at;
+    const float below = at->y + at->h + TIP_BELOW, above = at->y - TIP_BELOW - h;
+    const float x = fmaxf(window.x + TIP_MARGIN, fminf(at->x, window.x + window.w - TIP_MARGIN - w));
+    const float y = below + h <= window.y + window.h - TIP_MARGIN ? below : fmaxf(above, window.y + TIP_MARGIN);
+    return (struct rect){roundf(x), roundf(y), w, h};
+}
+
+void tooltip_show(const struct tooltip *tooltip, struct rect window, struct drawlist *list)
+{
+    if (!tooltip_is_shown(tooltip)) return;
+    const struct rect box = tooltip_box(tooltip, window);
+    drawlist_rounded(list, rect_inset(box, -1), 5, theme()->veil);
+    drawlist_rounded(list, box, 4, theme()->raised);
+    drawlist_rounded_line(list, box, 4, 1, theme()->control);
+    float y = box.y + TIP_PAD_Y + TIP_LINE - 4;
+    const char *rest = tooltip->text;
+    for (; *rest; y += TIP_LINE) {
+        const char *start = rest;
+        char part[257];
+        const size_t length = font_take_line(THEME_TEXT_SMALL, tip_width(window), &rest);
+        snprintf(part, sizeof part, "%.*s", (int)length, start);
+        drawlist_text(list, box.x + TIP_PAD_X, y, FONT_LABEL, THEME_TEXT_SMALL, theme()->text, part);
+    }
 }

@@ -136,9 +136,8 @@ struct ui {
     const struct event *event;
     struct drawlist *list;
     uint32_t find;
-    bool find_has_value;
-    double find_value;
-    uint32_t found; ///< the widget's id; 0: none
+    double find_value; ///< NAN: the present one
+    uint32_t found;    ///< the widget's id; 0: none
     float found_x, found_y;
     bool used;
     struct rect area, clip, list_clip;

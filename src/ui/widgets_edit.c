@@ -506,8 +506,8 @@ enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *nu
     case UI_PASS_FIND:
         if (ui->found != id || !has_bar(number)) return UI_NONE;
         // The bar's handle, so that pressing there and dragging to "name,value" sets that value.
-        ui->found_x = field.x + field.w * part_of(number, ui->find_has_value ? ui->find_value : *value);
-        ui->found_x = fminf(ui->found_x, field.x + field.w - (ui->find_has_value ? 0.0f : 1.0f));
+        ui->found_x = field.x + field.w * part_of(number, isnan(ui->find_value) ? *value : ui->find_value);
+        ui->found_x = fminf(ui->found_x, field.x + field.w - (isnan(ui->find_value) ? 1.0f : 0.0f));
         return UI_NONE;
     case UI_PASS_EVENT:
         break;
