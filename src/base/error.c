@@ -26,22 +26,18 @@ bool fail_no_memory(struct error *error, const char *what)
 
 enum { REPLACEMENT = 0xFFFD };
 
-/// Number of bytes after a first byte, and its own bits; -1 if it is no first byte.
-static int continuation_bytes(unsigned char first, uint32_t *bits)
-{
-    if (first < 0x80) return *bits = first, 0;
-    if (first >= 0xC2 && first <= 0xDF) return *bits = first & 0x1Fu, 1;
-    if (first >= 0xE0 && first <= 0xEF) return *bits = first & 0x0Fu, 2;
-    if (first >= 0xF0 && first <= 0xF4) return *bits = first & 0x07u, 3;
-    return -1;
-}
-
 uint32_t utf8_next(const char **text)
 {
-    const unsigned char *s = (const unsigned char *)*text;
-    if (*s == 0) return 0;
-    uint32_t codepoint = 0;
-    int count = continuation_bytes(*s, &codepoint);
+    const unsigned char *s = (const unsigned char *)*text, first = *s;
+    if (first == 0) return 0;
+    // How many bytes follow the first one, which has fewer bits of the character the more there are; −1: it is no first byte.
+    const int count = first < 0x80   ? 0
+                      : first < 0xC2 ? -1
+                      : first < 0xE0 ? 1
+                      : first < 0xF0 ? 2
+                      : first < 0xF5 ? 3
+                                     : -1;
+    uint32_t codepoint = count > 0 ? first & (0x3Fu >> count) : first;
     *text += 1;
     for (int i = 1; i <= count; i++) {
         if ((s[i] & 0xC0) != 0x80) return REPLACEMENT;

@@ -98,21 +98,6 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
     }
 }
 
-/// The colour of a vertex by its phase. The face keeps its colour: without eyes nobody sees which way the animal looks.
-static void color_vertex(const struct figure *figure, int map, int axis, int vertex, struct posed_look *look)
-{
-    const struct character *c = &figure->character;
-    const float largest = figure->largest[map][axis], scale = largest > 0.0f ? 1.0f / largest : 0.0f;
-    look->phase[0] = scale * c->coordinates[map].re[vertex][axis];
-    look->phase[1] = scale * c->coordinates[map].im[vertex][axis];
-
-    float *color = look->color, mapped[3];
-    const float luminance = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
-    const float share = glm_smoothstep(0.3f * figure->dark, figure->dark, luminance);
-    phase_color_linear(look->phase[0], look->phase[1], mapped);
-    glm_vec3_lerp(color, mapped, share, color);
-}
-
 /// The first vertex of a part in its figure.
 static int figure_first(const struct posed *mesh, const struct posed_part *part, int first)
 {
@@ -141,7 +126,18 @@ bool posed_map(struct posed *mesh, const struct stage_model *shown)
         for (int v = 0; v < part->own->vertex_count; v++) {
             struct posed_look *look = &mesh->looks[part->vertex + v];
             look_at(part->own, v, look);
-            if (map >= 0) color_vertex(figure, map, axis, from + v, look);
+            if (map < 0) continue;
+
+            // The colour by its phase. The face keeps its own: without eyes nobody sees which way the animal looks.
+            const struct coordinate *shown_by = &figure->character.coordinates[map];
+            const float largest = figure->largest[map][axis], scale = largest > 0.0f ? 1.0f / largest : 0.0f;
+            float *color = look->color, mapped[3];
+            look->phase[0] = scale * shown_by->re[from + v][axis];
+            look->phase[1] = scale * shown_by->im[from + v][axis];
+            const float luminance = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
+            const float share = glm_smoothstep(0.3f * figure->dark, figure->dark, luminance);
+            phase_color_linear(look->phase[0], look->phase[1], mapped);
+            glm_vec3_lerp(color, mapped, share, color);
         }
     }
     return true;
