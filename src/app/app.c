@@ -359,29 +359,6 @@ void app_frame(struct app *app)
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
 enum { LOG_ROWS = 1 << 16 };
 
-/// Opens a window; if that fails, prints why and runs headless.
-static bool open_platform(struct app *app, struct error *error)
-{
-    const struct app_options *o = app->options;
-    const struct replay_header *header = app->replay ? replay_get_header(app->replay) : NULL;
-    int width = o->width ? o->width : header ? header->width : DEFAULT_WIDTH;
-    int height = o->height ? o->height : header ? header->height : DEFAULT_HEIGHT;
-    double scale = o->scale > 0 ? o->scale : header ? header->scale : 1;
-    if (!o->headless && !o->no_draw) {
-        struct error refused = {0};
-        int vsync = app->replay || o->frames ? 0 : 1;
-        app->platform = platform_window(width, height, "wiggly", vsync, &refused);
-        if (app->platform) return true;
-        fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n",
-                refused.text);
-    }
-    width = (int)lround(width * scale);
-    height = (int)lround(height * scale);
-    app->platform = o->no_draw ? platform_blind(width, height, (float)scale)
-                               : platform_offscreen(width, height, (float)scale, error);
-    return app->platform != NULL;
-}
-
 /// Makes a frame; false after the last.
 static bool run_frame(void *user)
 {
@@ -466,21 +443,37 @@ static bool start_app(struct app *app, struct error *error)
     if (o->theme) theme_use((enum theme_kind)(o->theme - 1));
     if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
     font_init();
-    if (!open_platform(app, error)) return false;
+
+    // A window; if that fails, it says why and runs headless.
+    const struct replay_header *header = app->replay ? replay_get_header(app->replay) : NULL;
+    int width = o->width ? o->width : header ? header->width : DEFAULT_WIDTH;
+    int height = o->height ? o->height : header ? header->height : DEFAULT_HEIGHT;
+    const double wanted = o->scale > 0 ? o->scale : header ? header->scale : 1;
+    float scale = (float)wanted;
+    if (!o->headless && !o->no_draw) {
+        struct error refused = {0};
+        const int vsync = app->replay || o->frames ? 0 : 1;
+        app->platform = platform_window(width, height, "wiggly", vsync, &refused);
+        if (!app->platform)
+            fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n",
+                    refused.text);
+    }
+    width = (int)lround(width * wanted);
+    height = (int)lround(height * wanted);
+    if (!app->platform)
+        app->platform =
+            o->no_draw ? platform_blind(width, height, scale) : platform_offscreen(width, height, scale, error);
+    if (!app->platform) return false;
     const bool window = platform_is_window(app->platform);
     const char *stage_scale = o->stage_scale ? o->stage_scale : window && !o->replay && !o->record ? "auto" : "1";
     if (!resolution_parse(&app->resolution, stage_scale))
         return fail(error, ERROR_USAGE, "--stage-scale: expected auto or a number from 0.25 to 1, got '%s'",
                     stage_scale);
-    int width, height;
-    float scale;
     platform_size(app->platform, &width, &height, &scale);
     app->display.width = (float)width / scale;
     app->display.height = (float)height / scale;
     app->display.scale = scale;
-    app->figures.ui_scale = o->ui_scale > 0 ? o->ui_scale
-                            : app->replay   ? replay_get_header(app->replay)->ui_scale
-                                            : 1;
+    app->figures.ui_scale = o->ui_scale > 0 ? o->ui_scale : header ? header->ui_scale : 1;
     if (!o->no_draw && !(app->draw = draw_create(scale, error))) return false;
     app_open_editor(app);
     app->work.models = models_create();
@@ -492,10 +485,9 @@ static bool start_app(struct app *app, struct error *error)
     }
     uint64_t hash = scene_hash(app->work.document);
     // A replay only fits its scene.
-    if (app->replay && replay_get_header(app->replay)->scene_hash != hash)
+    if (header && header->scene_hash != hash)
         return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
-                    o->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
-                    (unsigned long long)hash);
+                    o->replay, (unsigned long long)header->scene_hash, (unsigned long long)hash);
 
     // No output may replace the scene's models and the files that these name. Updating the models reads those files, which notes them.
     const char *const outputs[] = {o->log, o->screenshot, o->record, o->result};
@@ -509,20 +501,19 @@ static bool start_app(struct app *app, struct error *error)
         if (outputs[i] && !file_check_unread(outputs[i], error)) return false;
     }
     if (o->record) {
-        struct replay_header header = {.width = (int)lroundf((float)width / scale),
-                                       .height = (int)lroundf((float)height / scale),
-                                       .scale = (double)scale,
-                                       .ui_scale = app->figures.ui_scale,
-                                       .scene_hash = hash};
-        if (!(app->recording = recording_open(o->record, &header, error))) return false;
+        const struct replay_header own = {.width = (int)lroundf((float)width / scale),
+                                          .height = (int)lroundf((float)height / scale),
+                                          .scale = (double)scale,
+                                          .ui_scale = app->figures.ui_scale,
+                                          .scene_hash = hash};
+        if (!(app->recording = recording_open(o->record, &own, error))) return false;
     }
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
     if (o->saves) mkdir(o->saves, 0777);
     app->fixed_clock = !window || app->replay || app->recording;
     app->must_redraw = true;
     if (window) {
-        platform_on_lost(on_lost, app);
-        platform_on_key(keeps_key, app);
+        platform_listen((struct platform_calls){on_lost, keeps_key, app});
         if (!app->replay) process_catch_end();
     }
     if (is_live(app)) {
@@ -576,8 +567,7 @@ int app_run(const struct app_options *options, struct error *error)
     struct error late = {0};
     if (screenshot && !app_screenshot(&app, screenshot, good ? error : &late)) good = false;
     if (!close_files(&app, good ? error : &late)) good = false;
-    platform_on_key(NULL, NULL);
-    platform_on_lost(NULL, NULL); // a rescue would save the document, which is freed below
+    platform_listen((struct platform_calls){0}); // a rescue would save the document, which is freed below
     personal_end(&app, !good);
     app_free(&app);
     int complaints = platform_gl_complaints();

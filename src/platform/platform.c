@@ -408,8 +408,7 @@ struct x_error {
 
 struct wl_display;
 
-static platform_rescue *rescue;
-static void *rescue_user;
+static struct platform_calls calls;
 static unsigned long own; ///< our window's X number
 static bool error_seen;
 
@@ -419,9 +418,9 @@ typedef int x_error_handler(void *display, void *event);
 /// Skips exit() handlers, which would talk to the display.
 static _Noreturn void end_lost(void)
 {
-    platform_rescue *once = rescue;
-    rescue = NULL;
-    if (once) once(rescue_user);
+    const struct platform_calls once = calls;
+    calls.lost = NULL;
+    if (once.lost) once.lost(once.user);
     _exit(EXIT_LOST);
 }
 
@@ -438,7 +437,7 @@ static int on_x_error(void *display, void *event)
 {
     (void)display;
     const struct x_error *error = event;
-    if (rescue && own && error->resource == own && (error->code == BAD_WINDOW || error->code == BAD_DRAWABLE))
+    if (calls.lost && own && error->resource == own && (error->code == BAD_WINDOW || error->code == BAD_DRAWABLE))
         end_lost();
     error_seen = true;
     return 0;
@@ -461,13 +460,10 @@ static bool handle_errors(void)
     return true;
 }
 
-void platform_on_key(platform_keeps_key *function, void *user) { (void)function, (void)user; }
-
-void platform_on_lost(platform_rescue *function, void *user)
+void platform_listen(struct platform_calls listener)
 {
     x_handler *(*set)(x_handler *);
-    rescue = function;
-    rescue_user = user;
+    calls = listener;
     if (symbol_find("XSetIOErrorHandler", &set)) set(on_x_io_error);
     handle_errors();
 }
@@ -646,9 +642,9 @@ const struct event *platform_events(struct platform *platform, double seconds, i
         glfwPollEvents();
     }
     const struct event *events = event_queue_take(&platform->queue, count);
-    if (!platform->window || !rescue) return events;
+    if (!platform->window || !calls.lost) return events;
 
-    // Ends the process as described at platform_on_lost() if another program destroyed the window. X errors reveal that; while idle, nothing
+    // Ends the process as described at struct platform_calls if another program destroyed the window. X errors reveal that; while idle, nothing
     // is drawn, so this queries the window.
     if (is_wayland_lost()) end_lost();
     if (!handle_errors()) return events;

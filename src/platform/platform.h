@@ -64,13 +64,17 @@ bool platform_fetches(const char *path);
 
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor);
 
-/// Called when the display is lost or another program destroyed the window; then the process ends with exit status 3. In a browser, called
-/// whenever the page is hidden. Register it once the window is open; NULL: none.
-typedef void platform_rescue(void *user);
-void platform_on_lost(platform_rescue *function, void *user);
+/// What the surface of a window calls.
+struct platform_calls {
+    /// When the display is lost or another program destroyed the window; then the process ends with exit status 3. In a browser, whenever the
+    /// page is hidden.
+    void (*lost)(void *user);
+    /// In a browser: whether a key is the app's; the others stay the browser's.
+    bool (*keeps_key)(void *user, int key, unsigned mods);
+    void *user;
+};
 
-/// In a browser: asked whether a key is the app's; the others stay the browser's.
-typedef bool platform_keeps_key(void *user, int key, unsigned mods);
-void platform_on_key(platform_keeps_key *function, void *user);
+/// Call it once the window is open; all zero: it calls nothing.
+void platform_listen(struct platform_calls calls);
 
 #endif

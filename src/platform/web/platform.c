@@ -178,28 +178,14 @@ void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
     page_cursor(names[cursor]);
 }
 
-static platform_rescue *rescue;
-static void *rescue_user;
+static struct platform_calls calls;
 
-void platform_on_lost(platform_rescue *function, void *user)
-{
-    rescue = function;
-    rescue_user = user;
-}
-
-static platform_keeps_key *keeps_key;
-static void *keeps_key_user;
-
-void platform_on_key(platform_keeps_key *function, void *user)
-{
-    keeps_key = function;
-    keeps_key_user = user;
-}
+void platform_listen(struct platform_calls listener) { calls = listener; }
 
 /// A hidden page has no frames, and may never be shown again.
 EMSCRIPTEN_KEEPALIVE void web_hidden(void)
 {
-    if (rescue) rescue(rescue_user);
+    if (calls.lost) calls.lost(calls.user);
 }
 
 // A browser says itself what is wrong in WebGL.
@@ -258,7 +244,7 @@ EMSCRIPTEN_KEEPALIVE bool web_keeps(char *name, unsigned mods)
 {
     const int key = key_from_name(name);
     free(name);
-    return keeps_key && key != KEY_NONE && keeps_key(keeps_key_user, key, mods);
+    return calls.keeps_key && key != KEY_NONE && calls.keeps_key(calls.user, key, mods);
 }
 
 EMSCRIPTEN_KEEPALIVE void web_text(unsigned codepoint)
