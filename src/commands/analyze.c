@@ -71,22 +71,6 @@ struct result {
     int filled;                ///< coordinates so far
 };
 
-/// Splits --shake at colons; false if a part is no direction or the number of parts is wrong.
-static bool read_directions(struct job *job, int files)
-{
-    const char *at = job->shake;
-    while (at && job->direction_count < files) {
-        char part[64];
-        size_t length = strcspn(at, ":");
-        if (length >= sizeof part) return false;
-        memcpy(part, at, length);
-        part[length] = '\0';
-        if (!options_direction(part, job->directions[job->direction_count++])) return false;
-        at = at[length] ? at + length + 1 : NULL;
-    }
-    return !at && (job->direction_count <= 1 || job->direction_count == files);
-}
-
 /// Rounded to a millionth, so that files do not depend on the processor LAPACK ran on.
 static double rounded(double value) { return round(value * 1e6) / 1e6; }
 
@@ -623,6 +607,18 @@ int command_analyze(int argc, char **argv)
     while (job.files[files]) files++;
     if (!job.rest && companion_path(job.files[0], ".rest.obj", job.rest_found) && access(job.rest_found, R_OK) == 0)
         job.rest = job.rest_found;
+
+    // --shake is split at colons: one direction for all files, or one per file.
+    bool is_directed = true;
+    const char *at = job.shake;
+    while (at && is_directed && job.direction_count < files) {
+        char part[64];
+        const size_t length = strcspn(at, ":");
+        snprintf(part, sizeof part, "%.*s", (int)length, at);
+        is_directed = length < sizeof part && options_direction(part, job.directions[job.direction_count++]);
+        at = at[length] ? at + length + 1 : NULL;
+    }
+    is_directed = is_directed && !at && (job.direction_count <= 1 || job.direction_count == files);
     const char *wrong = NULL;
     if (!job.rest)
         wrong = "--rest mesh.obj is missing: name the mesh at rest";
@@ -632,7 +628,7 @@ int command_analyze(int argc, char **argv)
         wrong = "-o creature.glb is missing: name the file to write";
     else if (job.from > 0 && job.method == ANALYSIS_CPCA)
         wrong = "--from has no effect with --method cpca: leave one out";
-    else if (!read_directions(&job, files))
+    else if (!is_directed)
         wrong = "--shake: expected up, side, front or a vector x,y,z; one for all files, or one per file (up:side)";
     if (wrong) return options_wrong(&usage, "%s", wrong);
     progress_end_when_interrupted();

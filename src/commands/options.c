@@ -2,7 +2,6 @@
 #include "base/file.h"
 #include "commands/commands.h"
 #include <errno.h>
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,7 +58,6 @@ static bool read_int(const char *text, char end, double minimum, double maximum,
     errno = 0;
     long number = strtol(text, &stop, 10);
     if (stop == text || *stop != end || errno || (double)number < minimum || (double)number > maximum) return false;
-    if (number < INT_MIN || number > INT_MAX) return false;
     *value = (int)number;
     *rest = stop;
     return true;

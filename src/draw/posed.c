@@ -46,7 +46,7 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
         parts += (size_t)shown->part_count;
         for (int p = 0; p < shown->part_count; p++) indices += (size_t)shown->parts[p].index_count;
     }
-    *mesh = (struct posed){.map_coordinate = -1};
+    *mesh = (struct posed){0};
     if (!need_has_room(vertices * (2 * sizeof *mesh->place + sizeof *mesh->looks) +
                        indices * 8 * sizeof *mesh->neighbours))
         return;
@@ -111,14 +111,13 @@ bool posed_map(struct posed *mesh, const struct stage_model *shown)
 {
     const struct figure *figure = shown->posed.figure;
     const int map = figure ? shown->map_coordinate : -1, axis = shown->map_axis;
-    if (map == mesh->map_coordinate && (map < 0 || (axis == mesh->map_axis && figure->id == mesh->map_figure &&
-                                                    figure->version == mesh->map_version)))
-        return false;
-    mesh->map_coordinate = map;
-    mesh->map_axis = axis;
+    uint64_t phases = 0;
+    if (map >= 0)
+        phases = hash_word(hash_word(hash_word(HASH_START, figure->id), figure->version), (uint64_t)(3 * map + axis));
+    if (phases == mesh->phases) return false;
+    mesh->phases = phases;
     int first = figure ? 0 : mesh->part_count;
     while (first < mesh->part_count && mesh->parts[first].node != figure->character.node) first++;
-    if (figure) mesh->map_figure = figure->id, mesh->map_version = figure->version;
     for (int p = first; p < mesh->part_count && mesh->parts[p].node == mesh->parts[first].node; p++) {
         struct posed_part *part = &mesh->parts[p];
         const int from = figure_first(mesh, part, first);

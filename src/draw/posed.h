@@ -36,8 +36,7 @@ struct posed {
     bool *front; ///< per triangle: faces the eye
     struct posed_part *parts;
     int vertex_count, index_count, part_count;
-    int map_coordinate, map_axis;     ///< of the shown phases
-    uint64_t map_figure, map_version; ///< the figure whose phases are shown, and its version
+    uint64_t phases; ///< hash of the figure, its version, the coordinate and the axis that are shown; 0: own colours
     // On the GPU.
     GLuint vertex_array, index_buffer;
     GLuint moving_buffer, look_buffer; ///< all positions, then all normals; looks of vertices

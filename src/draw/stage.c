@@ -429,7 +429,7 @@ static void draw_meshes(const struct stage_renderer *stage, const struct stage_v
             glUniform1f(program->at[AT_SEAM], seam);
             glUniform2fv(program->at[AT_SHADE], 1, shown->shade);
             glUniform1f(program->at[AT_BLINK], shown->blink);
-            glUniform1f(program->at[AT_LINE], mesh->map_coordinate >= 0 ? PHASE_LINE * scale : 0.0f);
+            glUniform1f(program->at[AT_LINE], mesh->phases ? PHASE_LINE * scale : 0.0f);
             glBindVertexArray(mesh->vertex_array);
             if (second) {
                 // Masked surfaces again, because their edges fade over the background.
