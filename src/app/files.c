@@ -291,21 +291,15 @@ static void show_subject(struct app *app, const char *name)
 
 bool app_open(struct app *app, const char *path, struct error *error)
 {
-    struct document *document;
-    if (path && strlen(path) >= PATH_LIMIT) {
+    if (path && strlen(path) >= PATH_LIMIT)
         return fail(error, ERROR_INPUT, "expected a path of at most %d bytes, got %zu: %s", PATH_LIMIT - 1,
                     strlen(path), path);
-    }
     const bool imports = path && import_suits(path);
     const uint64_t content =
         path && !imports ? file_content(path) : 0; // before parsing: a later write is another program's
-    if (imports) {
-        document = import_scene(path, error);
-    } else if (path) {
-        document = scene_load(path, NULL, error);
-    } else {
-        document = parse_built_in("tail.json", error);
-    }
+    struct document *document = imports ? import_scene(path, error)
+                                : path  ? scene_load(path, NULL, error)
+                                        : parse_built_in("tail.json", error);
     if (!document) return false;
     // Saving must overwrite neither a character's file nor a bundled scene.
     bool is_users = path && !imports && !assets_has(path);

@@ -61,17 +61,17 @@ void ui_begin_find(struct ui *ui, struct rect area, const char *name, const doub
     ui->find_value = value ? *value : NAN;
 }
 
-/// The focused widget's place among the last pass's; -1: none.
-static int focused(const struct ui *ui)
+/// A widget's place among the last pass's; -1: none.
+static int place_of(const struct ui *ui, uint32_t id)
 {
     int at = ui->stop_count - 1;
-    while (at >= 0 && ui->stop[at].id != ui->focus) at--;
+    while (at >= 0 && ui->stop[at].id != id) at--;
     return at;
 }
 
 bool ui_has_next(const struct ui *ui, int direction)
 {
-    const int at = focused(ui), next = at + direction;
+    const int at = place_of(ui, ui->focus), next = at + direction;
     return at < 0 ? ui->stop_count > 0 : next >= 0 && next < ui->stop_count;
 }
 
@@ -79,12 +79,9 @@ bool ui_has_next(const struct ui *ui, int direction)
 static void move_focus(struct ui *ui, int direction)
 {
     if (ui->stop_count == 0) return;
-    int at = focused(ui);
-    if (at < 0) {
-        at = direction > 0 ? 0 : ui->stop_count - 1;
-    } else {
-        at = (at + direction + ui->stop_count) % ui->stop_count;
-    }
+    int at = place_of(ui, ui->focus);
+    const int count = ui->stop_count;
+    at = at >= 0 ? (at + direction + count) % count : direction > 0 ? 0 : count - 1;
     ui->focus = ui->stop[at].id;
     const struct ui_stop *stop = &ui->stop[at];
     if (stop->list) ui_list_show(stop->list, stop->top, stop->rect.h);
@@ -95,21 +92,13 @@ void ui_keep(struct ui *ui, uint32_t id)
     if (ui->stop_count < UI_MAX_FOCUS) ui->stop[ui->stop_count++] = (struct ui_stop){.id = id};
 }
 
-static bool is_shown(const struct ui *ui, uint32_t id)
-{
-    for (int i = 0; i < ui->stop_count; i++) {
-        if (ui->stop[i].id == id) return true;
-    }
-    return false;
-}
-
 bool ui_end(struct ui *ui)
 {
     if (ui->popup.id && !ui->popup.built && ui->pass == UI_PASS_EVENT) ui_popup_close(ui); // its subject is gone
     if (ui->pass == UI_PASS_EVENT) {
-        if (!is_shown(ui, ui->focus)) ui->focus = 0;
-        if (!is_shown(ui, ui->held)) ui->held = 0;
-        if (!is_shown(ui, ui->typing)) ui->typing = 0;
+        if (place_of(ui, ui->focus) < 0) ui->focus = 0;
+        if (place_of(ui, ui->held) < 0) ui->held = 0;
+        if (place_of(ui, ui->typing) < 0) ui->typing = 0;
     }
     const struct event *event = ui->event;
     if (event && !ui->used && event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
@@ -261,7 +250,7 @@ void ui_hint(struct ui *ui, struct rect r, const char *text)
     if (ui_hovered(ui, r)) ui->hint = text;
     ui->offered = text;
     ui->offered_rect = r;
-    if (ui->focus && is_shown(ui, ui->focus)) hint_focus(ui, r, text);
+    if (ui->focus && place_of(ui, ui->focus) >= 0) hint_focus(ui, r, text);
 }
 
 void ui_register(struct ui *ui, uint32_t id, struct rect r)
@@ -272,7 +261,7 @@ void ui_register(struct ui *ui, uint32_t id, struct rect r)
     }
     const struct ui_stop stop = {id, r, ui->scrolled,
                                  ui->scrolled ? r.y - ui->scroll_area.y + ui->scrolled->offset : 0};
-    if (ui->pass == UI_PASS_EVENT && !ui->blocked && is_shown(ui, id)) ui->twice = stop;
+    if (ui->pass == UI_PASS_EVENT && !ui->blocked && place_of(ui, id) >= 0) ui->twice = stop;
     if ((!ui->blocked || ui->pass == UI_PASS_DRAW) && ui->stop_count < UI_MAX_FOCUS)
         ui->stop[ui->stop_count++] = stop;
     if (ui->pass == UI_PASS_FIND && (ui->find == id || ui->find == (id ^ ui->scope[ui->depth])) && !ui->found) {
