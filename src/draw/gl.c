@@ -1,7 +1,6 @@
 /// Compiles and links the embedded shaders, fills buffers and textures, and times the GPU.
 #include "draw/gl.h"
 #include "base/embedded.h"
-#include "base/png.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -77,13 +76,6 @@ GLuint gl_picture(const unsigned char *pixels, int width, int height)
     glGenerateMipmap(GL_TEXTURE_2D);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     return texture;
-}
-
-void gl_uniform_linear(GLint location, uint32_t color)
-{
-    float linear[3];
-    for (int k = 0; k < 3; k++) linear[k] = srgb_to_linear((float)(color >> (24 - 8 * k) & 0xFFu) / 255);
-    glUniform3fv(location, 1, linear);
 }
 
 void gl_scissor(struct area area, int height)

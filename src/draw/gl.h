@@ -85,9 +85,6 @@ int gl_largest_texture(void);
 /// A repeating sRGB texture with opacity.
 GLuint gl_picture(const unsigned char *pixels, int width, int height);
 
-/// Sets a vec3 of the current program to a colour 0xRRGGBBAA (sRGB), converted to linear.
-void gl_uniform_linear(GLint location, uint32_t color);
-
 /// Calls glScissor for an area counted from the top of a framebuffer of `height` pixels.
 void gl_scissor(struct area area, int height);
 

@@ -412,6 +412,9 @@ static void draw_meshes(const struct stage_renderer *stage, const struct stage_v
 {
     const bool second = seam > 0.0f;
     const mat4s clip_from_world = clip_from_world_of(view);
+    struct corner bounce;
+    set_color(&bounce, view->colors.bounce, 1.0f);
+    for (int k = 0; k < 3; k++) bounce.color[k] = srgb_to_linear(bounce.color[k]);
     glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
     for (enum stage_program which = 0; which < PROGRAM_FLAT; which++) {
         const struct program *program = &stage->programs[which];
@@ -425,7 +428,7 @@ static void draw_meshes(const struct stage_renderer *stage, const struct stage_v
             glUniformMatrix4fv(program->at[AT_CLIP_FROM_WORLD], 1, GL_FALSE, clip_from_world.raw[0]);
             glUniform3fv(program->at[AT_EYE], 1, view->eye);
             glUniform3fv(program->at[AT_KEY_FROM], 1, view->key_from);
-            gl_uniform_linear(program->at[AT_EARTH], view->colors.bounce);
+            glUniform3fv(program->at[AT_EARTH], 1, bounce.color);
             glUniform1f(program->at[AT_SEAM], seam);
             glUniform2fv(program->at[AT_SHADE], 1, shown->shade);
             glUniform1f(program->at[AT_BLINK], shown->blink);

@@ -126,15 +126,6 @@ void ui_release(struct ui *ui)
     ui->complaint[0] = '\0';
 }
 
-bool ui_is_typing_key(const struct ui *ui, const struct event *event)
-{
-    if (!ui->typing) return false;
-    if (event->kind == EVENT_TEXT) return true;
-    if (event->kind != EVENT_KEY) return false;
-    if (event->mods & MOD_CTRL) return ui_selects_all(event);
-    return event->key < KEY_F1 || event->key > KEY_F12;
-}
-
 struct rect ui_row(struct ui *ui, float height)
 {
     struct rect r = {ui->area.x + UI_PAD, ui->y, ui->area.w - 2 * UI_PAD, height};

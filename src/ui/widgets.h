@@ -163,8 +163,6 @@ bool ui_has_next(const struct ui *ui, int direction);
 
 /// Drops focus, hold and typing without a change.
 void ui_release(struct ui *ui);
-/// Whether a key belongs to the typed text: all except F keys and Ctrl chords other than Ctrl+A.
-bool ui_is_typing_key(const struct ui *ui, const struct event *event);
 
 /// Opens a scope for the ids of the widgets that follow: a section or a row of a list, by a number that no sibling has. Popups and typed
 /// lines, which other places open, have their ids outside scopes.

@@ -167,7 +167,10 @@ static enum ui_line type_event(struct ui *ui, uint32_t id, struct rect field)
         ui->focus = id;
         ui->text.all = event->clicks == 2;
     }
-    if (!ui_is_typing_key(ui, event)) return UI_LINE_NONE;
+    // All keys but F keys and Ctrl chords other than Ctrl+A belong to the text.
+    const bool is_function = event->key >= KEY_F1 && event->key <= KEY_F12;
+    const bool is_own = event->mods & MOD_CTRL ? ui_selects_all(event) : !is_function;
+    if (event->kind != EVENT_TEXT && !(event->kind == EVENT_KEY && is_own)) return UI_LINE_NONE;
     ui->used = true;
     bool press = event->kind == EVENT_KEY && event->action == ACTION_PRESS, changed;
     if (press && event->key == KEY_ESCAPE) return UI_LINE_CANCEL;
