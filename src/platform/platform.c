@@ -185,17 +185,6 @@ struct window {
     int x, y, width, height; ///< before full screen
 };
 
-static const int special_keys[GLFW_KEY_LAST + 1] = {
-    [GLFW_KEY_SPACE] = KEY_SPACE,     [GLFW_KEY_ESCAPE] = KEY_ESCAPE,
-    [GLFW_KEY_ENTER] = KEY_ENTER,     [GLFW_KEY_KP_ENTER] = KEY_ENTER,
-    [GLFW_KEY_TAB] = KEY_TAB,         [GLFW_KEY_BACKSPACE] = KEY_BACKSPACE,
-    [GLFW_KEY_INSERT] = KEY_INSERT,   [GLFW_KEY_DELETE] = KEY_DELETE,
-    [GLFW_KEY_LEFT] = KEY_LEFT,       [GLFW_KEY_RIGHT] = KEY_RIGHT,
-    [GLFW_KEY_UP] = KEY_UP,           [GLFW_KEY_DOWN] = KEY_DOWN,
-    [GLFW_KEY_PAGE_UP] = KEY_PAGE_UP, [GLFW_KEY_PAGE_DOWN] = KEY_PAGE_DOWN,
-    [GLFW_KEY_HOME] = KEY_HOME,       [GLFW_KEY_END] = KEY_END,
-};
-
 /// The ASCII character printed on a key, letters in upper case, or KEY_NONE.
 static int printed(int glfw_key, int scancode)
 {
@@ -210,7 +199,8 @@ static int key_of(int glfw_key, int scancode)
 {
     if (glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9) return glfw_key;
     if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F12) return KEY_F1 + (glfw_key - GLFW_KEY_F1);
-    if (glfw_key >= 0 && glfw_key <= GLFW_KEY_LAST && special_keys[glfw_key]) return special_keys[glfw_key];
+    if (glfw_key == GLFW_KEY_SPACE || (glfw_key >= GLFW_KEY_ESCAPE && glfw_key <= GLFW_KEY_END)) return glfw_key;
+    if (glfw_key == GLFW_KEY_KP_ENTER) return KEY_ENTER;
     // GLFW numbers keys by US layout.
     bool letter = glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z;
     bool is_latin = !letter; // or the keyboard's layout has Latin letters
@@ -223,11 +213,13 @@ static int key_of(int glfw_key, int scancode)
     return key == KEY_NONE && letter ? glfw_key : key;
 }
 
-// Our buttons, actions and modifiers have GLFW's numbers, which has more modifiers.
+// Our buttons, actions, modifiers and many keys have GLFW's numbers, which has more modifiers.
 _Static_assert(BUTTON_LEFT == GLFW_MOUSE_BUTTON_LEFT && BUTTON_RIGHT == GLFW_MOUSE_BUTTON_RIGHT &&
                    BUTTON_MIDDLE == GLFW_MOUSE_BUTTON_MIDDLE && ACTION_RELEASE == GLFW_RELEASE &&
                    ACTION_PRESS == GLFW_PRESS && ACTION_REPEAT == GLFW_REPEAT && MOD_SHIFT == GLFW_MOD_SHIFT &&
-                   MOD_CTRL == GLFW_MOD_CONTROL && MOD_ALT == GLFW_MOD_ALT && MOD_SUPER == GLFW_MOD_SUPER,
+                   MOD_CTRL == GLFW_MOD_CONTROL && MOD_ALT == GLFW_MOD_ALT && MOD_SUPER == GLFW_MOD_SUPER &&
+                   KEY_SPACE == GLFW_KEY_SPACE && KEY_ESCAPE == GLFW_KEY_ESCAPE && KEY_DELETE == GLFW_KEY_DELETE &&
+                   KEY_RIGHT == GLFW_KEY_RIGHT && KEY_UP == GLFW_KEY_UP && KEY_END == GLFW_KEY_END,
                "the same numbers");
 static const unsigned OUR_MODS = MOD_SHIFT | MOD_CTRL | MOD_ALT | MOD_SUPER;
 

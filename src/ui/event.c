@@ -4,10 +4,10 @@
 #include <string.h>
 
 /// From KEY_ESCAPE on.
-static const char *const special_names[] = {"Escape", "Enter", "Tab",  "Backspace", "Insert",   "Delete", "Left",
-                                            "Right",  "Up",    "Down", "PageUp",    "PageDown", "Home",   "End",
-                                            "F1",     "F2",    "F3",   "F4",        "F5",       "F6",     "F7",
-                                            "F8",     "F9",    "F10",  "F11",       "F12"};
+static const char *const special_names[] = {"Escape", "Enter", "Tab", "Backspace", "Insert",   "Delete", "Right",
+                                            "Left",   "Down",  "Up",  "PageUp",    "PageDown", "Home",   "End",
+                                            "F1",     "F2",    "F3",  "F4",        "F5",       "F6",     "F7",
+                                            "F8",     "F9",    "F10", "F11",       "F12"};
 
 _Static_assert(sizeof special_names / sizeof *special_names == KEY_COUNT - KEY_ESCAPE, "each has a name");
 

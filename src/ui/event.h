@@ -27,7 +27,7 @@ enum event_mods { MOD_SHIFT = 1, MOD_CTRL = 2, MOD_ALT = 4, MOD_SUPER = 8 };
 
 enum event_button { BUTTON_LEFT, BUTTON_RIGHT, BUTTON_MIDDLE };
 
-/// Letters and digits are their upper-case ASCII code, punctuation is its ASCII code.
+/// Letters and digits are their upper-case ASCII code, punctuation is its ASCII code. Up to KEY_END as GLFW numbers them.
 enum key {
     KEY_NONE = 0,
     KEY_SPACE = ' ',
@@ -37,10 +37,10 @@ enum key {
     KEY_BACKSPACE,
     KEY_INSERT,
     KEY_DELETE,
-    KEY_LEFT,
     KEY_RIGHT,
-    KEY_UP,
+    KEY_LEFT,
     KEY_DOWN,
+    KEY_UP,
     KEY_PAGE_UP,
     KEY_PAGE_DOWN,
     KEY_HOME,

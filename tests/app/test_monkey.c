@@ -177,7 +177,7 @@ static void edit_key(struct monkey *m)
         for (int i = below(m, 6); i > 0; i--) monkey_key(m, one_in(m, 2) ? KEY_UP : KEY_DOWN, 0);
         monkey_send(m, (struct event){.kind = EVENT_KEY, .key = letter, .action = ACTION_RELEASE});
     } else if (one_in(m, 3)) {
-        monkey_key(m, KEY_LEFT + below(m, 4), any_mods(m) | MOD_ALT);
+        monkey_key(m, KEY_RIGHT + below(m, 4), any_mods(m) | MOD_ALT);
     } else {
         monkey_key(m, keys[below(m, sizeof keys / sizeof keys[0])], one_in(m, 4) ? any_mods(m) : 0);
     }

@@ -346,7 +346,7 @@ static void read_row(const char *text, struct chords *chords)
         snprintf(name, sizeof name, "%.*s", (int)length, text);
         unsigned mods = take_mods(&key);
         if (strcmp(key, "arrows") == 0) {
-            for (int k = KEY_LEFT; k <= KEY_DOWN; k++) add(chords, k, mods);
+            for (int k = KEY_RIGHT; k <= KEY_UP; k++) add(chords, k, mods);
         } else if (key_of(key)) {
             add(chords, key_of(key), mods);
             if (!mods) add(chords, key_of(key), before);
