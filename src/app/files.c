@@ -262,7 +262,7 @@ void app_adopt(struct app *app, struct document *document)
     document_destroy(app->work.document);
     app->work.document = document;
     document->serial = ++app->last_serial;
-    app->own_file = (struct own_file){0};
+    app->own_file.content = app->own_file.asked = 0;
     history_clear(app->work.history, document);
     history_mark_saved(app->work.history);
     struct editor_world world = workspace_world(&app->work);

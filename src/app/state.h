@@ -102,19 +102,16 @@ void workspace_show(struct workspace *work, struct frame_row *row);
 
 void workspace_free(struct workspace *work);
 
-/// The document's own file as last seen. Another program or window may write it.
-struct own_file {
-    uint64_t content; ///< file_content() when last read or written
-    uint64_t asked;   ///< content the user was already asked about
-};
-
 struct app {
     const struct app_options *options;
     struct platform *platform;
     struct draw *draw; ///< NULL: nothing is drawn
     struct workspace work;
     char replaceable[PATH_LIMIT]; ///< existing file that "Save as" may replace if asked again
-    struct own_file own_file;
+    struct {
+        uint64_t content; ///< file_content() when last read or written
+        uint64_t asked;   ///< content the user was already asked about
+    } own_file;           ///< the document's, which another program or window may write
     unsigned last_serial; ///< highest document.serial so far
 
     struct export_job *export_job; ///< NULL: no export

@@ -279,8 +279,8 @@ void draw_destroy(struct draw *draw)
     if (!draw) return;
     gpu_timer_destroy(&draw->timer);
     target_destroy(&draw->target);
-    if (draw->stage) stage_renderer_destroy(draw->stage);
-    if (draw->atlas_texture) glDeleteTextures(1, &draw->atlas_texture);
+    stage_renderer_destroy(draw->stage);
+    glDeleteTextures(1, &draw->atlas_texture);
     atlas_free(&draw->atlas);
     batch_destroy(&draw->batch);
     free(draw);

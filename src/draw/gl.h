@@ -33,11 +33,6 @@ static inline struct area area_union(struct area a, struct area b)
     return (struct area){area_min(a.x0, b.x0), area_min(a.y0, b.y0), area_max(a.x1, b.x1), area_max(a.y1, b.y1)};
 }
 
-static inline bool area_same(struct area a, struct area b)
-{
-    return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
-}
-
 static inline bool area_touches(struct area a, struct area b) { return !area_empty(area_intersect(a, b)); }
 
 static inline bool area_contains(struct area a, struct area b)

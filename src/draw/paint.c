@@ -5,6 +5,7 @@
 #include "model/vector.h"
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { LINE_POINTS = 8192 };
 
@@ -49,12 +50,10 @@ bool batch_create(struct batch *batch, struct error *error)
 
 void batch_destroy(struct batch *batch)
 {
-    if (batch->program) {
-        glDeleteProgram(batch->program);
-        glDeleteVertexArrays(1, &batch->array);
-        glDeleteBuffers(1, &batch->vertex_buffer);
-        glDeleteBuffers(1, &batch->index_buffer);
-    }
+    glDeleteProgram(batch->program);
+    glDeleteVertexArrays(1, &batch->array);
+    glDeleteBuffers(1, &batch->vertex_buffer);
+    glDeleteBuffers(1, &batch->index_buffer);
     free(batch->vertices);
     free(batch->indices);
     free(batch->parts);
@@ -142,13 +141,8 @@ static uint32_t reserve(struct batch *batch, int vertices, int indices)
     if (vertices > BATCH_VERTICES - batch->vertex_count || indices > BATCH_INDICES - batch->index_count)
         batch_flush(batch);
     const struct batch_part *last = batch->part_count ? &batch->parts[batch->part_count - 1] : NULL;
-    if (!last || last->fill || !area_same(last->scissor, batch->scissor)) open_part(batch);
+    if (!last || last->fill || memcmp(&last->scissor, &batch->scissor, sizeof batch->scissor) != 0) open_part(batch);
     return (uint32_t)batch->vertex_count;
-}
-
-static void add_vertex(struct batch *batch, struct batch_vertex vertex)
-{
-    batch->vertices[batch->vertex_count++] = vertex;
 }
 
 static void add_triangle(struct batch *batch, uint32_t a, uint32_t b, uint32_t c)
@@ -195,7 +189,7 @@ static void add_quad(struct batch *batch, const struct quad *quad, uint32_t colo
         struct batch_vertex vertex = shape_vertex(x[i], y[i], color);
         vertex.u = u[i];
         vertex.v = v[i];
-        add_vertex(batch, vertex);
+        batch->vertices[batch->vertex_count++] = vertex;
     }
     add_triangle(batch, base, base + 1, base + 2);
     add_triangle(batch, base, base + 2, base + 3);
@@ -288,8 +282,8 @@ static void add_convex(struct batch *batch, const float *xy, int count, float sc
         struct batch_vertex inner = shape_vertex(points[i].x - 0.5f * out.x, points[i].y - 0.5f * out.y, color);
         struct batch_vertex outer = shape_vertex(points[i].x + 0.5f * out.x, points[i].y + 0.5f * out.y, color);
         outer.across = 1.0f;
-        add_vertex(batch, inner);
-        add_vertex(batch, outer);
+        batch->vertices[batch->vertex_count++] = inner;
+        batch->vertices[batch->vertex_count++] = outer;
     }
     for (int i = 0; i < n; i++) {
         uint32_t here = base + 2 * (uint32_t)i, next = base + 2 * (uint32_t)((i + 1) % n);
@@ -324,9 +318,9 @@ static void add_edge(struct batch *batch, const struct stretch *s, const float *
     for (int i = 0; i < s->count; i++) {
         struct batch_vertex out = shape_vertex(s->x[i], edge[i] + 0.5f * outward, color);
         out.across = 1.0f;
-        add_vertex(batch, out);
-        add_vertex(batch, shape_vertex(s->x[i], edge[i] - 0.5f * outward, color));
-        add_vertex(batch, shape_vertex(s->x[i], core, color));
+        batch->vertices[batch->vertex_count++] = out;
+        batch->vertices[batch->vertex_count++] = shape_vertex(s->x[i], edge[i] - 0.5f * outward, color);
+        batch->vertices[batch->vertex_count++] = shape_vertex(s->x[i], core, color);
     }
     for (uint32_t i = 0; i + 1 < (uint32_t)s->count; i++) {
         for (uint32_t row = 0; row < 2; row++) {
@@ -458,7 +452,7 @@ static void add_beside(const struct stroke *stroke, vec2s at, float across, floa
     vertex.across = across;
     vertex.reach = stroke->reach;
     vertex.along = along;
-    add_vertex(stroke->batch, vertex);
+    stroke->batch->vertices[stroke->batch->vertex_count++] = vertex;
 }
 
 static void add_pair(const struct stroke *stroke, struct side_pair pair, float along)

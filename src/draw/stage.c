@@ -464,8 +464,7 @@ struct stage_renderer *stage_renderer_create(struct error *error)
         for (int u = 0; program->name && u < UNIFORMS; u++)
             program->at[u] = glGetUniformLocation(program->name, uniform_names[u]);
         if (program->name) continue;
-        while (--p >= 0) glDeleteProgram(stage->programs[p].name);
-        free(stage);
+        stage_renderer_destroy(stage);
         return NULL;
     }
 

@@ -581,10 +581,8 @@ void platform_destroy(struct platform *platform)
 {
     if (!platform) return;
     struct window *window = platform->window;
-    for (int i = 0; window && i < CURSOR_KINDS; i++) {
-        if (window->cursors[i]) glfwDestroyCursor(window->cursors[i]);
-    }
     if (window) {
+        for (int i = 0; i < CURSOR_KINDS; i++) glfwDestroyCursor(window->cursors[i]);
         glfwDestroyWindow(window->handle);
         glfwTerminate();
     }
