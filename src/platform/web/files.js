@@ -57,7 +57,7 @@ export function download(FS, path, name = path.slice(path.lastIndexOf('/') + 1))
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-/// Calls one of surface.c's functions with a text of any length.
+/// Calls one of platform.c's functions with a text of any length.
 export function tell(app, call, text, ...more) {
   const copy = app.allocateUTF8(text);
   return copy ? app[`_${call}`](copy, ...more) : app.page.say('There is not enough memory for that.');

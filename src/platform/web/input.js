@@ -1,4 +1,4 @@
-// Mouse, pen, fingers and keys, as the app's events (surface.c's web_… functions).
+// Mouse, pen, fingers and keys, as the app's events (platform.c's web_… functions).
 import { tell } from './files.js';
 
 const SHIFT = 1, CTRL = 2, ALT = 4, SUPER = 8, FINGER = 16;

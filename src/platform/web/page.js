@@ -1,4 +1,4 @@
-// Starts the app in its page, and does what it asks of a browser (surface.c's page_… functions).
+// Starts the app in its page, and does what it asks of a browser (platform.c's page_… functions).
 import { listen } from './input.js';
 import { fetches, isFetching, keepPage, makeFolders, readLink, receive, tell, writeLink } from './files.js';
 import { isStopped, stop } from './stopped.js';
