@@ -5,7 +5,6 @@
 #include "base/need.h"
 #include "base/progress.h"
 #include "bench/bench.h"
-#include "spline/solver.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,7 +80,7 @@ static void run_large(struct bench *bench)
     bench_input_create(&input, BENCH_LOOP, WIGGLY_COMPLEX, SAMPLES);
     expect(&result, wiggly_create(SAMPLES, input.desc.knot_count, &solver));
     for (int run = 0; run < RUNS; run++) {
-        solver_forget(solver);
+        bench_forget(solver);
         double start = clock_now();
         expect(&result, wiggly_solve(solver, &input.desc, &curve));
         bench->times[run] = clock_now() - start;

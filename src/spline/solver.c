@@ -184,11 +184,3 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
 }
 
 void wiggly_set_method(wiggly_solver *solver, wiggly_method method) { solver->method = method; }
-
-void solver_forget(wiggly_solver *solver)
-{
-    solver->filter.known = false;
-    solver->wind.is_kept = false;
-    solver->band.is_kept = false;
-    chain_forget(&solver->chain);
-}

@@ -143,15 +143,8 @@ void evaluate_slopes(const wiggly_desc *desc, wiggly_curve *curve);
 /// Adds an error of x to that of the curve just solved. Returns the status, WIGGLY_INEXACT for WIGGLY_OK if that is too much.
 wiggly_status solver_add_error(const wiggly_solver *solver, wiggly_curve *curve, double error, wiggly_status status);
 
-/// The rows of a description, with knots fixed in x, as solver_minimise() would find them, and its matrix: for comparisons with
-/// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.
-wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y);
-
 /// The filter of a description without pole tracks, of at least so much damping.
 const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor);
-
-/// Forgets everything that is kept for the case that little changes: the next solve is a whole one. Changes no result.
-void solver_forget(wiggly_solver *solver);
 
 /// x behind the row `from` ≥ 1, from that and the one before: the filter run forward (r_i = 0, Figure 5).
 void solver_run_forward(wiggly_solver *solver, int from);

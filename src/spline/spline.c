@@ -148,21 +148,6 @@ static wiggly_status judge(wiggly_curve *curve, double error, wiggly_status stat
     return status == WIGGLY_OK && !(curve->error <= tolerance(curve->mode)) ? WIGGLY_INEXACT : status;
 }
 
-wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y)
-{
-    problem p;
-    wiggly_desc own;
-    int knot;
-    wiggly_status status = desc_read(desc, &own);
-    if (status == WIGGLY_OK) status = problem_check(solver, &own, &knot);
-    if (status != WIGGLY_OK) return status;
-    problem_pose(solver, &own, y, &p);
-    for (int i = 0; i < desc->samples; i++) y[i] = problem_about(&p, i);
-    problem_set_rows(solver, &p);
-    system_matrix(&solver->rows, &solver->band);
-    return WIGGLY_OK;
-}
-
 /// Copies the caller's curve with the members that its version has.
 static wiggly_curve read_curve(const wiggly_curve *curve)
 {

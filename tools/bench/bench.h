@@ -48,6 +48,9 @@ void bench_report(struct bench *bench, const struct bench_result *result);
 /// Ends the program with a message.
 _Noreturn void bench_stop(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/// Forgets everything that a solver keeps for the case that little changes: its next solve is a whole one. Changes no result.
+void bench_forget(wiggly_solver *solver);
+
 /// Verifies a description with knots and times it. `values_only`: the solver has just solved it with another value of a knot.
 void bench_case(struct bench *bench, const wiggly_desc *desc, bool values_only, struct bench_result *result);
 

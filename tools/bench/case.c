@@ -2,7 +2,7 @@
 #include "base/need.h"
 #include "base/progress.h"
 #include "bench/bench.h"
-#include "spline/solver.h"
+#include "spline/problem.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,6 +58,28 @@ static void work_destroy(struct work *w)
     free(w->curve.total);
 }
 
+void bench_forget(wiggly_solver *solver)
+{
+    solver->filter.known = false;
+    solver->wind.is_kept = false;
+    solver->band.is_kept = false;
+    chain_forget(&solver->chain);
+}
+
+/// The rows of the description, with knots fixed in x, as the solver's own minimiser would find them, and its matrix.
+static void describe(struct work *w)
+{
+    problem p;
+    wiggly_desc own;
+    int knot;
+    if (desc_read(&w->desc, &own) != WIGGLY_OK || problem_check(w->solver, &own, &knot) != WIGGLY_OK)
+        bench_stop("the description is not valid");
+    problem_pose(w->solver, &own, w->about, &p);
+    for (int i = 0; i < own.samples; i++) w->about[i] = problem_about(&p, i);
+    problem_set_rows(w->solver, &p);
+    system_matrix(&w->solver->rows, &w->solver->band);
+}
+
 /// Whether an unknown is known.
 static bool is_known(const system_rows *rows, int k, int part)
 {
@@ -70,7 +92,7 @@ static void fill_band(struct work *w)
 {
     const band_matrix *m = &w->solver->band;
     const system_rows *rows = &w->solver->rows;
-    solver_describe(w->solver, &w->desc, w->about);
+    describe(w);
     const int width = m->is_complex ? 2 : 1, kd = width == 2 ? MOST_BAND : 2;
     system_gradient(rows, NULL, NULL);
     w->unknowns = width * m->count;
@@ -146,7 +168,7 @@ static void time_solver(struct bench *bench, struct work *w, bool values_only, s
     double end = clock_now() + seconds_a_case;
     for (; bench_goes_on(runs, end); runs++) {
         w->knots[w->desc.knot_count / 2].value += runs % 2 ? -1e-3 : 1e-3;
-        if (!values_only) solver_forget(w->solver);
+        if (!values_only) bench_forget(w->solver);
         double start = clock_now();
         wiggly_solve(w->solver, &w->desc, &w->curve);
         bench->times[runs] = clock_now() - start;
