@@ -65,7 +65,7 @@ endif
 VERSION := $(shell sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
 MAJOR := $(firstword $(subst ., ,$(VERSION)))
 SOURCES := $(sort $(shell find src -name '*.c' -not -path 'src/platform/web/*'))
-LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/maths/maths.c src/base/status.c
+LIBRARY_SOURCES := $(wildcard src/spline/*.c src/maths/*.c) src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
     assets/models/fox.glb)

@@ -27,7 +27,7 @@ class LibraryHook(BuildHookInterface):
         name = "wiggly.dll" if platform.startswith("win") else "libwiggly.dylib" if platform.startswith("macosx") else "libwiggly.so"
         self.folder = tempfile.TemporaryDirectory()
         library = Path(self.folder.name) / name
-        sources = [*sorted((tree / "src" / "spline").glob("*.c")), tree / "src" / "maths" / "maths.c", tree / "src" / "base" / "status.c"]
+        sources = [*sorted((tree / "src").glob("spline/*.c")), *sorted((tree / "src").glob("maths/*.c")), tree / "src" / "base" / "status.c"]
         compiler, preprocess, compile_, link = (shlex.split(os.environ.get(name, "")) for name in ("CC", "CPPFLAGS", "CFLAGS", "LDFLAGS"))
         compiler = compiler or ["cc"]
         if not shutil.which(compiler[0]):

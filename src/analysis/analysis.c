@@ -2,6 +2,7 @@
 #include "analysis/analysis.h"
 #include "analysis/spectrum.h"
 #include "base/need.h"
+#include "maths/symmetric.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,34 +49,21 @@ static double complex component_along(const struct component *c, int vertex)
 /// means the direction with the most motion, its largest number positive.
 static void component_turn(struct component *c, const double direction[3])
 {
-    enum { STEPS = 60 };
     double length =
         direction ? sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]) : 0;
     double complex squares = 0, sum = 0;
     if (length > 0) {
         for (int i = 0; i < 3; i++) c->direction[i] = direction[i] / length;
     } else {
-        // The direction with the most motion: the largest eigenvector of M = Re Σ ñ ñᴴ, by the power method, v ← M v / |M v|.
-        double moment[3][3] = {{0}}, largest = 0, *d = c->direction;
+        // The direction with the most motion: the largest eigenvector of Re Σ ñ ñᴴ.
+        double moment[9] = {0}, values[3], vectors[9], largest = 0;
         for (int v = 0; v < c->vertices; v++) {
-            for (int n = 0; n < 9; n++) moment[n / 3][n % 3] += creal(c->shape[v][n / 3] * conj(c->shape[v][n % 3]));
+            for (int n = 0; n < 9; n++) moment[n] += creal(c->shape[v][n / 3] * conj(c->shape[v][n % 3]));
         }
-        int axis = moment[1][1] > moment[0][0] ? 1 : 0;
-        if (moment[2][2] > moment[axis][axis]) axis = 2;
-        for (int i = 0; i < 3; i++) d[i] = i == axis;
-        for (int step = 0; step < STEPS; step++) {
-            double next[3], square = 0;
-            for (int i = 0; i < 3; i++) {
-                next[i] = moment[i][0] * d[0] + moment[i][1] * d[1] + moment[i][2] * d[2];
-                square += next[i] * next[i];
-            }
-            if (!(square > 0)) break;
-            for (int i = 0; i < 3; i++) d[i] = next[i] / sqrt(square);
-        }
-        for (int i = 0; i < 3; i++) {
-            if (fabs(d[i]) > fabs(largest)) largest = d[i];
-        }
-        for (int i = 0; i < 3; i++) d[i] = copysign(1, largest) * d[i];
+        symmetric_eigen(3, moment, values, vectors);
+        const double *d = vectors + 6;
+        for (int i = 0; i < 3; i++) largest = fabs(d[i]) > fabs(largest) ? d[i] : largest;
+        for (int i = 0; i < 3; i++) c->direction[i] = copysign(1, largest) * d[i];
     }
     for (int v = 0; v < c->vertices; v++) {
         double complex n = component_along(c, v);
@@ -597,7 +585,7 @@ static bool solve_curve(const struct knot_search *s, const struct knots *k, doub
 static double evaluate_knots(const struct knot_search *s, struct knots *k)
 {
     const struct series_metric *m = &s->component->metric;
-    double a[UNKNOWNS][UNKNOWNS] = {{0}}, b[UNKNOWNS] = {0}, v[UNKNOWNS];
+    double a[UNKNOWNS * UNKNOWNS] = {0}, b[UNKNOWNS] = {0}, v[UNKNOWNS];
     int n = s->component->frames, unknowns = k->sloped ? 2 * k->count : k->count;
     k->error = HUGE_VAL;
     for (int i = 0; i < unknowns; i++) {
@@ -614,29 +602,13 @@ static double evaluate_knots(const struct knot_search *s, struct knots *k)
         for (int j = 0; j <= i; j++) {
             const double complex *y = s->response + (size_t)j * (size_t)n;
             for (int t = 0; t < n; t++)
-                a[i][j] += (creal(x[t] * conj(y[t])) * m->norm + creal(x[t] * y[t] * m->square)) / 2;
+                a[i * unknowns + j] += (creal(x[t] * conj(y[t])) * m->norm + creal(x[t] * y[t] * m->square)) / 2;
         }
     }
 
-    // Solves A v = b by Cholesky; an unknown without effect gets 0.
-    for (int j = 0; j < unknowns; j++) {
-        const double whole = a[j][j];
-        for (int i = 0; i < j; i++) a[j][j] -= a[j][i] * a[j][i];
-        a[j][j] = a[j][j] > 1e-10 * whole ? sqrt(a[j][j]) : HUGE_VAL;
-        for (int i = j + 1; i < unknowns; i++) {
-            for (int l = 0; l < j; l++) a[i][j] -= a[i][l] * a[j][l];
-            a[i][j] /= a[j][j];
-        }
-    }
-    for (int i = 0; i < unknowns; i++) {
-        v[i] = b[i];
-        for (int l = 0; l < i; l++) v[i] -= a[i][l] * v[l];
-        v[i] /= a[i][i];
-    }
-    for (int i = unknowns - 1; i >= 0; i--) {
-        for (int l = i + 1; l < unknowns; l++) v[i] -= a[l][i] * v[l];
-        v[i] /= a[i][i];
-    }
+    memcpy(v, b, sizeof v);
+    symmetric_reduce(unknowns, unknowns, a);
+    symmetric_solve(unknowns, a, v); // an unknown without effect gets 0
     double gain = 0;
     for (int i = 0; i < unknowns; i++) gain += b[i] * v[i];
     const double left = m->power - gain;

@@ -15,6 +15,7 @@
 #include "base/need.h"
 #include "commands/report.h"
 #include "commands/shaking.h"
+#include "maths/symmetric.h"
 #include "model/character.h"
 #include "model/gltf.h"
 #include "model/motion.h"
@@ -475,7 +476,7 @@ static void find_coordinates(struct shakes *s, const struct shaking *by)
             moment[n] = 0;
             for (size_t k = 0; k < numbers; k++) moment[n] += creal(a[k] * conj(b[k]));
         }
-        eigen_symmetric(3, moment, values, vectors);
+        symmetric_eigen(3, moment, values, vectors);
         for (size_t t = 0; t < frames; t++) largest = fmax(largest, cabs(s->swings[p].answer[t]));
         for (size_t t = 0; largest > 0 && t < frames; t++)
             s->swings[p].answer[t] /= largest; // max |x| = 1 in a shake along e

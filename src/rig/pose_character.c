@@ -1,7 +1,7 @@
 /// What is soft of a model: coordinates' weights from splines' values and the clip, vertices as points for pins, and the lowest ones for floors.
 #include "maths/maths.h"
+#include "maths/wide.h"
 #include "rig/posing.h"
-#include "spline/wide.h"
 #include <math.h>
 
 _Static_assert((int)MODEL_MAX_DRIVES <= (int)MORPH_MAX_COORDINATES, "a drive moves a coordinate");

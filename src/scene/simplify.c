@@ -2,7 +2,7 @@
 /// by more than the tolerance; then each is left out that the others can do without. As noise hinders that, values are fitted to all knots. It tries
 /// several frequencies and dampings: with the right ones, a swing goes on without knots.
 #include "scene/simplify.h"
-#include "spline/symmetric.h"
+#include "maths/symmetric.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,68 +2,12 @@
 #include "simulation/body.h"
 #include "base/need.h"
 #include "base/progress.h"
+#include "maths/symmetric.h"
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-// --- eigenvalues by Jacobi rotations
-
-enum { SWEEPS_MAX = 60 };
-
-void eigen_symmetric(int n, double *a, double *values, double *vectors)
-{
-    memset(vectors, 0, (size_t)n * (size_t)n * sizeof *vectors);
-    for (int i = 0; i < n; i++) vectors[i * n + i] = 1;
-    bool moved = true;
-    for (int sweep = 0; moved && sweep < SWEEPS_MAX; sweep++) {
-        moved = false;
-        for (int p = 0; p < n; p++) {
-            for (int q = p + 1; q < n; q++) {
-                // Rotates rows and columns p and q so that entry (p, q) becomes zero, and the same rows of `vectors`.
-                double pq = a[p * n + q], pp = a[p * n + p], qq = a[q * n + q];
-                if (fabs(pq) <= DBL_EPSILON * sqrt(fabs(pp)) * sqrt(fabs(qq)) || fabs(pq) < DBL_MIN) continue;
-                double theta = (qq - pp) / (2 * pq);
-                double t = copysign(1, theta) / (fabs(theta) + sqrt(1 + theta * theta));
-                double c = 1 / sqrt(1 + t * t), s = c * t;
-                for (int k = 0; k < n; k++) {
-                    double x = a[k * n + p], y = a[k * n + q];
-                    a[k * n + p] = c * x - s * y;
-                    a[k * n + q] = s * x + c * y;
-                }
-                for (int k = 0; k < n; k++) {
-                    double x = a[p * n + k], y = a[q * n + k];
-                    a[p * n + k] = c * x - s * y;
-                    a[q * n + k] = s * x + c * y;
-                    x = vectors[p * n + k];
-                    y = vectors[q * n + k];
-                    vectors[p * n + k] = c * x - s * y;
-                    vectors[q * n + k] = s * x + c * y;
-                }
-                a[p * n + q] = a[q * n + p] = 0;
-                moved = true;
-            }
-        }
-    }
-    for (int i = 0; i < n; i++) values[i] = a[i * n + i];
-
-    for (int i = 0; i < n - 1; i++) {
-        int least = i;
-        for (int j = i + 1; j < n; j++) {
-            if (values[j] < values[least]) least = j;
-        }
-        if (least == i) continue;
-        double value = values[i];
-        values[i] = values[least];
-        values[least] = value;
-        for (int k = 0; k < n; k++) {
-            value = vectors[i * n + k];
-            vectors[i * n + k] = vectors[least * n + k];
-            vectors[least * n + k] = value;
-        }
-    }
-}
 
 // --- singular values
 
@@ -228,7 +172,7 @@ static void material_stiffness(const struct material *material, const double sig
                          2 * stretch[0][1] * stretch[0][2] * stretch[1][2];
     if (stretch[0][0] > 0 && minor > 0 && determinant > 0) return; // Sylvester: already definite
     double vectors[9], values[3];                                  // else without its negative eigenvalues
-    eigen_symmetric(3, &stretch[0][0], values, vectors);
+    symmetric_eigen(3, &stretch[0][0], values, vectors);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
             stretch[i][j] = 0;
@@ -665,7 +609,7 @@ void modes_create(struct modes *modes, struct body *body, int count)
     for (int i = 0; i < m; i++) {
         for (int k = 0; k < m; k++) l.small[i * m + k] = l.small[i * steps + k];
     }
-    eigen_symmetric(m, l.small, l.values, l.vectors);
+    symmetric_eigen(m, l.small, l.values, l.vectors);
     for (int mode = m - 1; mode >= 0 && modes->count < count; mode--) {
         const double squared = 1 / l.values[mode] - l.shift, *part = l.vectors + (size_t)mode * (size_t)m;
         double(*shape)[3] = modes->shape + (size_t)modes->count * nodes;

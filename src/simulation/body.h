@@ -28,11 +28,7 @@ static inline double *vec3_flat(double (*vectors)[3]) { return *vectors; }
 
 static inline double vec3_length(const double a[3]) { return sqrt(vec3_dot(a, a)); }
 
-// Eigenvalues of small dense symmetric matrices, singular values of 3×3 ones.
-
-/// Cyclic Jacobi. `a` (n × n, symmetric) is destroyed; values ascend; vectors[k·n …] is the k-th eigenvector, of length
-/// 1. Meant for n up to a few hundred.
-void eigen_symmetric(int n, double *a, double *values, double *vectors);
+// Singular values of 3×3 matrices.
 
 /// F = U diag(σ) Vᵀ with rotations U and V and σ₀ ≥ σ₁ ≥ |σ₂|. If det F < 0, σ₂ is negative, so that an inverted tetrahedron turns
 /// back along the direction of least effort (Irving, Teran and Fedkiw 2004, section 3).

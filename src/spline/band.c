@@ -17,7 +17,7 @@
 // The pivots are scalars: a 2×2 block with an explicit inverse keeps half of the digits only. Of A⁻¹ the diagonal follows on the way back
 // (Takahashi): with l = a / pivot, Z_kj = −Σ l_i Z_ij and Z_kk = 1/pivot − Σ l_j Z_kj need only Z of the next two samples.
 #include "spline/band.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 #include <stdint.h>

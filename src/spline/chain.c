@@ -17,7 +17,7 @@
 //
 // Outside complex mode all imaginary parts are zeros.
 #include "spline/chain.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 

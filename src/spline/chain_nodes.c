@@ -20,7 +20,7 @@
 //
 // The imaginary rows are left out: they pull with ω |Im x_j| at every sample.
 #include "spline/chain.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 

@@ -2,7 +2,7 @@
 /// rest of the curve.
 #include "maths/maths.h"
 #include "spline/problem.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include "maths/maths.h"
 #include "spline/host.h"
 #include "spline/problem.h"
-#include "spline/symmetric.h"
+#include "maths/symmetric.h"
 #include <math.h>
 #include <string.h>
 

@@ -7,7 +7,7 @@
 //
 // of weighted rows. With constant poles all samples share one block; only those beside an end, a slope or a still knot have their own.
 #include "spline/system.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <string.h>
 
 jet_row system_jet(const system_rows *rows, int i)

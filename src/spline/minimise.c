@@ -14,7 +14,7 @@
 // u + w is the x that is 0 at the knots and minimises ‖W^½ R (x − e)‖, so it is within √D ‖W^½ R e‖ (forced_response.c), and outside the system
 // within twice e more. The smaller of the two counts.
 #include "spline/solver.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

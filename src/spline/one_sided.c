@@ -12,7 +12,7 @@
 // These are then solved as equalities. If a push turns out to be a pull, or a free value exceeds a limit, the steps stopped too early, and
 // everything is repeated to a smaller μ. So it ends with the answer, or with the certainty that it has none.
 #include "spline/one_sided.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <math.h>
 #include <string.h>
 

@@ -10,8 +10,8 @@
 #include "spline/bound_tail.h"
 #include "spline/host.h"
 #include "spline/one_sided.h"
-#include "spline/symmetric.h"
-#include "spline/wide.h"
+#include "maths/symmetric.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -427,7 +427,7 @@ static void add_rows(wiggly_group *g, const int *order, int pin_count)
         double *on = g->on + columns * g->rows, want = 0;
         memset(on, 0, sizeof *on * (size_t)columns);
         for (int r = 0; r < n; r++) {
-            double part = vectors[n * r + i];
+            double part = vectors[n * i + r];
             want += part * g->pins[order[r / 3]].to[r % 3];
             for (int k = 0; k < columns; k++) on[k] += part * b[columns * r + k];
         }

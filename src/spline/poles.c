@@ -3,7 +3,7 @@
 #include "maths/maths.h"
 #include "spline/desc.h"
 #include "spline/host.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 #include <stdint.h>

@@ -2,7 +2,7 @@
 /// domain starts and ends, the level that knots are measured from, and the cost of the start.
 #include "maths/maths.h"
 #include "spline/problem.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 #include <stdint.h>

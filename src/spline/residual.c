@@ -8,7 +8,7 @@
 // The differences are those of near numbers, so they are exact or almost. Beside it are sums of what the rows' own rounding may be
 // (minimise.c has the bound).
 #include "spline/system.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

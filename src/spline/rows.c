@@ -1,7 +1,7 @@
 /// The rows of a problem for the band (system.h), sample by sample: the jets of a cubic (eq. 6), of a spring (eq. 14, eq. 17) and of a complex
 /// spline (eq. 22) with their drive (eq. 25), and the slopes (eq. 9).
 #include "spline/problem.h"
-#include "spline/wide.h"
+#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

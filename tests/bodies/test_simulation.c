@@ -1,5 +1,6 @@
 /// The parts of the simulation, each against its textbook definition or LAPACK; and what an elastic body does in time: its frequency, its energy,
 /// its momenta, and that it always comes back to rest.
+#include "maths/symmetric.h"
 #include "near.h"
 #include "simulation/body.h"
 #include "simulation/integrator.h"
@@ -120,7 +121,7 @@ TEST(eigenvalues_against_lapack)
         memcpy(copy, a, sizeof copy);
         assert_int_equal(LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'N', 'L', n, copy, n, expected), 0);
         memcpy(copy, a, sizeof copy);
-        eigen_symmetric(n, copy, values, shapes);
+        symmetric_eigen(n, copy, values, shapes);
         for (int k = 0; k < n; k++) {
             assert_near(values[k], expected[k], 1e-13 * n);
             for (int i = 0; i < n; i++) {

@@ -344,7 +344,7 @@ TEST(nothing_pulls_but_the_pins)
         }
     }
     assert_true(exact > 150 && tested > 150);
-    check_told(told, -11.583261);
+    check_told(told, -11.584186);
 }
 
 // --- bounds ----------------------------------------------------------------------------------------------------------

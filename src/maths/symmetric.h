@@ -1,8 +1,8 @@
 /// Small dense symmetric matrices, row-major, n × n.
-#ifndef SPLINE_SYMMETRIC_H
-#define SPLINE_SYMMETRIC_H
+#ifndef MATHS_SYMMETRIC_H
+#define MATHS_SYMMETRIC_H
 
-/// Eigenvalues, and the eigenvectors as the columns of `vectors`; `a` is destroyed. For a symmetric positive semidefinite `a`.
+/// `a` is destroyed; values ascend; row k of `vectors` is the k-th eigenvector, of length 1. Meant for n up to a few hundred.
 void symmetric_eigen(int n, double *a, double *values, double *vectors);
 
 /// Replaces the first `count` rows of a's lower triangle by their Cholesky factor, and the others by their Schur complement. A row that depends
