@@ -1,6 +1,7 @@
 /// exp, sin, log and others: an argument is reduced exactly, then a polynomial of least error follows, and what rounding lost of the largest
 /// term is added to the small ones. Errors stay near half a unit in the last place.
 #include "maths/maths.h"
+#include "maths/wide.h"
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -200,7 +201,7 @@ double maths_atan2(double y, double x)
     return copysign(angle, y);
 }
 
-// --- √(x² + y²) and powers of ten ---------------------------------------------------------------------------------
+// --- √(x² + y²), sums and powers of ten ---------------------------------------------------------------------------
 
 double maths_hypot(double x, double y)
 {
@@ -209,6 +210,18 @@ double maths_hypot(double x, double y)
     const double scale = largest > 1e150 ? 0x1p-600 : largest < 1e-140 ? 0x1p600 : 1;
     x *= scale, y *= scale;
     return sqrt(x * x + y * y) / scale;
+}
+
+WIDEST double maths_dot(const double *restrict a, const double *restrict b, int n)
+{
+    double part[8] = {0}, sum = 0;
+    int k = 0;
+    for (; k + 8 <= n; k += 8) {
+        for (int i = 0; i < 8; i++) part[i] += a[k + i] * b[k + i];
+    }
+    for (; k < n; k++) sum += a[k] * b[k];
+    for (int i = 0; i < 8; i++) sum += part[i];
+    return sum;
 }
 
 double maths_power_of_ten(int n)

@@ -35,6 +35,9 @@ static inline double maths_asin(double x) { return maths_atan2(x, sqrt((1 - x) *
 /// √(x² + y²).
 double maths_hypot(double x, double y);
 
+/// Σ a_k b_k, in lanes of eight.
+double maths_dot(const double *a, const double *b, int n);
+
 // In float: double's result, rounded.
 static inline float maths_sinf(float angle) { return (float)maths_sin((double)angle); }
 static inline float maths_cosf(float angle) { return (float)maths_cos((double)angle); }

@@ -1,6 +1,6 @@
 /// Eigenvalues by cyclic Jacobi rotations, and Cholesky's factor.
 #include "maths/symmetric.h"
-#include "maths/wide.h"
+#include "maths/maths.h"
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -64,26 +64,13 @@ void symmetric_eigen(int n, double *a, double *values, double *vectors)
     }
 }
 
-/// Σ a_k b_k, in lanes of eight.
-WIDEST static double dot(const double *restrict a, const double *restrict b, int n)
-{
-    double part[8] = {0}, sum = 0;
-    int k = 0;
-    for (; k + 8 <= n; k += 8) {
-        for (int i = 0; i < 8; i++) part[i] += a[k + i] * b[k + i];
-    }
-    for (; k < n; k++) sum += a[k] * b[k];
-    for (int i = 0; i < 8; i++) sum += part[i];
-    return sum;
-}
-
 void symmetric_reduce(int n, int count, double *a)
 {
     for (int i = 0; i < n; i++) {
         double *row = a + n * i, entry = row[i];
-        for (int j = 0; j < i && j < count; j++) row[j] = (row[j] - dot(row, a + n * j, j)) / a[n * j + j];
-        for (int j = count; j < i; j++) row[j] -= dot(row, a + n * j, count);
-        row[i] -= dot(row, row, i < count ? i : count);
+        for (int j = 0; j < i && j < count; j++) row[j] = (row[j] - maths_dot(row, a + n * j, j)) / a[n * j + j];
+        for (int j = count; j < i; j++) row[j] -= maths_dot(row, a + n * j, count);
+        row[i] -= maths_dot(row, row, i < count ? i : count);
         if (i < count) row[i] = row[i] > lost * entry ? sqrt(row[i]) : INFINITY;
     }
 }
@@ -92,9 +79,9 @@ double symmetric_solve(int n, const double *a, double *b)
 {
     double energy = 0;
     for (int i = 0; i < n; i++) {
-        const double *row = a + n * i, rest = b[i] - dot(row, b, i);
+        const double *row = a + n * i, rest = b[i] - maths_dot(row, b, i);
         const double pivot =
-            row[i] < INFINITY ? row[i] : sqrt(lost * dot(row, row, i)); // a left-out row's is at most that
+            row[i] < INFINITY ? row[i] : sqrt(lost * maths_dot(row, row, i)); // a left-out row's is at most that
         energy += rest == 0 ? 0 : rest / pivot * (rest / pivot);
         b[i] = rest / row[i];
     }
@@ -108,7 +95,7 @@ double symmetric_solve(int n, const double *a, double *b)
 void symmetric_multiply(int n, int stride, const double *a, const double *x, double *y)
 {
     for (int i = 0; i < n; i++) {
-        y[i] = dot(a + stride * i, x, i + 1);
+        y[i] = maths_dot(a + stride * i, x, i + 1);
         for (int j = 0; j < i; j++) y[j] += a[stride * i + j] * x[i];
     }
 }

@@ -52,7 +52,7 @@ typedef struct chain_row {
     double right[3];              ///< the gradient, times L⁻¹
     double entry[3];              ///< the matrix's diagonal
     double spread[2];             ///< √ of its inverse's diagonal: of Im x, and both of d
-    double reach;                 ///< R of these (chain_nodes.c)
+    double reach;                 ///< R of these (chain.c)
     double end[2], pull;          ///< sizes of ν and the slope's pull at the stretch's end
 } chain_row;
 
@@ -78,38 +78,7 @@ typedef struct chain {
     double size;                   ///< of the solution
 } chain;
 
-/// Solves for the nodes and writes x of every sample of the system; outside complex mode x_im receives zeros. If `kept` is set, only values
-/// have changed since the last solve, and its factor is reused. false if the nodes' system has no factor.
-bool chain_solve(chain *chain, double *x_re, double *x_im);
-
 /// Clears tables and factor, because the filter has changed or their memory was used otherwise.
 void chain_forget(chain *chain);
-
-/// At least |q| of F^k for k up to a length, as |λ ± δ| ≤ 1; |p| is at most 1.
-static inline double chain_reach(const chain *c, double length)
-{
-    const double delta2 = cplx_norm(c->delta2); // |δ|⁴
-    return length * length * (length * length) * delta2 < 1 ? length : 1 / sqrt(sqrt(delta2));
-}
-
-// --- the nodes' system (chain_nodes.c) ---
-
-/// At the nodes' present state, the costate ν at the end of the stretch after node j, and F*^L ν at its start; and how hard the slope at its
-/// end pulls.
-typedef struct chain_costates {
-    cplx end[2], start[2];
-    double pull;
-} chain_costates;
-
-chain_costates chain_costates_of(const chain *chain, int j);
-
-/// Factors the system; false if that fails or leaves no bound.
-bool chain_factor(chain *chain);
-
-/// Corrects the nodes' unknowns by the gradient at their present state; returns the norm of the correction, that of the energy. Sets `size`.
-double chain_correct(chain *chain);
-
-/// A bound of the error of x, if the factor has left that of a last correction.
-double chain_bound(const chain *chain, double left, const double *x_im);
 
 #endif
