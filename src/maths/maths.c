@@ -3,23 +3,7 @@
 #include "maths/maths.h"
 #include "maths/wide.h"
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
-
-static inline uint64_t bits_of(double x)
-{
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
-static inline double from_bits(uint64_t bits)
-{
-    double x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
 
 /// Adding it rounds a number below 2⁵¹ to an integer, in the sum's last bits.
 static const double rounder = 0x1.8p52;
@@ -72,14 +56,14 @@ typedef struct reduced {
 static inline reduced reduce_exp(double x)
 {
     const double shifted = x * 0x1.71547652b82fep+5 + rounder, n = shifted - rounder;
-    const int count = (int32_t)(uint32_t)bits_of(shifted);
+    const int count = (int32_t)(uint32_t)maths_bits(shifted);
     const double r = (x - n * 0x1.62e42fefa0000p-6) - n * 0x1.cf79abc9e3b3ap-45, r2 = r * r;
     const double rest = r + r2 * ((0.5 + r * (1.0 / 6)) + r2 * ((1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720)));
     return (reduced){roots[count & 31], (count - (count & 31)) / 32, rest};
 }
 
 /// 2^k of a normal number.
-static inline double power_of_two(int k) { return from_bits((uint64_t)(k + 1023) << 52); }
+static inline double power_of_two(int k) { return maths_from_bits((uint64_t)(k + 1023) << 52); }
 
 double maths_exp(double x)
 {
@@ -127,7 +111,7 @@ static inline double cosine(double r, double rest)
     const double low = 0x1.5555555555555p-5 + z * -0x1.6c16c16c16967p-10;
     const double middle = 0x1.a01a019f4eb3ep-16 + z * -0x1.27e4fa17db291p-22;
     const double high = 0x1.1eeb68e73b8acp-29 + z * -0x1.907da0204c48ep-37;
-    const double short_r = from_bits(bits_of(r) & ~UINT64_C(0x7ffffff)); // its square is exact
+    const double short_r = maths_from_bits(maths_bits(r) & ~UINT64_C(0x7ffffff)); // its square is exact
     const double half = 0.5 * short_r * short_r, near = 1 - half, lost = (1 - near) - half;
     const double half_rest = 0.5 * (r - short_r) * (r + short_r);
     return near + (lost - half_rest + (z2 * (low + z2 * (middle + z2 * high)) - r * rest));
@@ -143,7 +127,7 @@ maths_point maths_turn(double angle)
     const double most = first - second, back = first - most, lost = back - second, third = n * 0x1.3198a2e037073p-69;
     const double r = most + (lost - third), rest = (most - r) + (lost - third);
     const double c = cosine(r, rest), s = sine(r, rest);
-    switch (bits_of(shifted) & 3) {
+    switch (maths_bits(shifted) & 3) {
     case 0:
         return (maths_point){c, s};
     case 1:
@@ -222,6 +206,12 @@ WIDEST double maths_dot(const double *restrict a, const double *restrict b, int 
     for (; k < n; k++) sum += a[k] * b[k];
     for (int i = 0; i < 8; i++) sum += part[i];
     return sum;
+}
+
+int maths_compare(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
 }
 
 double maths_power_of_ten(int n)

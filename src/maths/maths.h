@@ -8,6 +8,22 @@
 #endif
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+/// A number's bits, and the number of these.
+static inline uint64_t maths_bits(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+static inline double maths_from_bits(uint64_t bits)
+{
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
 
 double maths_exp(double x);
 
@@ -55,6 +71,9 @@ static inline float maths_hypotf(float x, float y)
 {
     return (float)sqrt((double)x * (double)x + (double)y * (double)y);
 }
+
+/// For qsort(): ascending by the double that an element begins with.
+int maths_compare(const void *a, const void *b);
 
 /// 10ⁿ, exactly rounded for |n| ≤ 22.
 double maths_power_of_ten(int n);

@@ -12,4 +12,7 @@
 #define WIDEST
 #endif
 
+/// Where constant arguments make loops of their own.
+#define ALWAYS_INLINE static inline __attribute__((always_inline))
+
 #endif

@@ -2,6 +2,7 @@
 #include "simulation/body.h"
 #include "base/need.h"
 #include "base/progress.h"
+#include "maths/maths.h"
 #include "maths/symmetric.h"
 #include <float.h>
 #include <math.h>
@@ -16,25 +17,23 @@
 // digits. The remaining signs follow from u₂ = u₀ × u₁ and σ₂ = u₂ · a₂.
 enum { SVD_SWEEPS_MAX = 16 }; // three or four are enough in practice
 
-/// Columns p and q of m become c·p − s·q and s·p + c·q.
-static void rotate_columns(double m[3][3], int p, int q, double c, double s)
+/// The pairs of axes.
+static const int axis_pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+
+/// Columns p and q become c·p − s·q and s·p + c·q.
+static void rotate_columns(double column[3][3], int p, int q, double c, double s)
 {
     for (int i = 0; i < 3; i++) {
-        double x = m[i][p], y = m[i][q];
-        m[i][p] = c * x - s * y;
-        m[i][q] = s * x + c * y;
+        double x = column[p][i], y = column[q][i];
+        column[p][i] = c * x - s * y;
+        column[q][i] = s * x + c * y;
     }
-}
-
-static double column_dot(const double m[3][3], int p, int q)
-{
-    return m[0][p] * m[0][q] + m[1][p] * m[1][q] + m[2][p] * m[2][q];
 }
 
 /// Makes columns p and q of A orthogonal; false where they are already.
 static bool orthogonalise(double a[3][3], double v[3][3], int p, int q)
 {
-    double pp = column_dot(a, p, p), qq = column_dot(a, q, q), pq = column_dot(a, p, q);
+    double pp = vec3_dot(a[p], a[p]), qq = vec3_dot(a[q], a[q]), pq = vec3_dot(a[p], a[q]);
     if (fabs(pq) <= DBL_EPSILON * sqrt(pp) * sqrt(qq)) return false;
     double zeta = (qq - pp) / (2 * pq);
     double t = copysign(1, zeta) / (fabs(zeta) + sqrt(1 + zeta * zeta)); // the smaller angle
@@ -44,31 +43,21 @@ static bool orthogonalise(double a[3][3], double v[3][3], int p, int q)
     return true;
 }
 
-/// Exchanges two columns by a quarter turn, so that V stays a rotation.
-static void order_columns(double a[3][3], double v[3][3], int p, int q)
-{
-    if (column_dot(a, p, p) >= column_dot(a, q, q)) return;
-    rotate_columns(a, p, q, 0, -1);
-    rotate_columns(v, p, q, 0, -1);
-}
-
 void svd3(const double f[3][3], struct svd *svd)
 {
-    double a[3][3];
-    memcpy(a, f, sizeof a);
-    memcpy(svd->v, (const double[3][3]){{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, sizeof svd->v);
+    double column[3][3], u[3][3], v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 0; i < 9; i++) column[i % 3][i / 3] = f[i / 3][i % 3];
     bool moved = true;
     for (int sweep = 0; moved && sweep < SVD_SWEEPS_MAX; sweep++) {
-        moved = orthogonalise(a, svd->v, 0, 1);
-        moved |= orthogonalise(a, svd->v, 0, 2);
-        moved |= orthogonalise(a, svd->v, 1, 2);
+        moved = false;
+        for (int k = 0; k < 3; k++) moved |= orthogonalise(column, v, axis_pairs[k][0], axis_pairs[k][1]);
     }
-    order_columns(a, svd->v, 0, 1);
-    order_columns(a, svd->v, 0, 2);
-    order_columns(a, svd->v, 1, 2);
-
-    double column[3][3], u[3][3];
-    for (int i = 0; i < 9; i++) column[i % 3][i / 3] = a[i / 3][i % 3];
+    for (int k = 0; k < 3; k++) { // in order, by quarter turns, so that V stays a rotation
+        const int p = axis_pairs[k][0], q = axis_pairs[k][1];
+        if (vec3_dot(column[p], column[p]) >= vec3_dot(column[q], column[q])) continue;
+        rotate_columns(column, p, q, 0, -1);
+        rotate_columns(v, p, q, 0, -1);
+    }
     svd->sigma[0] = vec3_length(column[0]);
     for (int i = 0; i < 3; i++) u[0][i] = svd->sigma[0] > 0 ? column[0][i] / svd->sigma[0] : i == 0;
 
@@ -88,13 +77,10 @@ void svd3(const double f[3][3], struct svd *svd)
     vec3_cross(u[0], u[1], u[2]);
     svd->sigma[1] = vec3_dot(u[1], column[1]);
     svd->sigma[2] = vec3_dot(u[2], column[2]);
-    for (int i = 0; i < 9; i++) svd->u[i / 3][i % 3] = u[i % 3][i / 3];
+    for (int i = 0; i < 9; i++) svd->u[i / 3][i % 3] = u[i % 3][i / 3], svd->v[i / 3][i % 3] = v[i % 3][i / 3];
 }
 
 // --- one tetrahedron
-
-/// The pairs of principal axes.
-static const int axis_pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 
 struct material material_from(double young, double poisson)
 {
@@ -110,9 +96,6 @@ static double logarithm(double sigma)
 
 /// L'(σ)
 static double slope(double sigma) { return 1 / fmax(sigma, MATERIAL_CLAMP); }
-
-/// L''(σ)
-static double curvature(double sigma) { return sigma >= MATERIAL_CLAMP ? -1 / (sigma * sigma) : 0; }
 
 static double log_volume(const double sigma[3])
 {
@@ -151,7 +134,8 @@ static void material_stiffness(const struct material *material, const double sig
     double(*stretch)[3] = stiffness->stretch;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) stretch[i][j] = material->lambda * slope(sigma[i]) * slope(sigma[j]);
-        stretch[i][i] += material->mu + pressure * curvature(sigma[i]);
+        const double curvature = sigma[i] >= MATERIAL_CLAMP ? -1 / (sigma[i] * sigma[i]) : 0; // L''(σ)
+        stretch[i][i] += material->mu + pressure * curvature;
     }
     for (int k = 0; k < 3; k++) {
         int i = axis_pairs[k][0], j = axis_pairs[k][1];
@@ -479,82 +463,59 @@ enum { RIGID = 6, GRADIENTS_MAX = 20000 };
 struct lanczos {
     struct body *body;
     struct pool pool;
-    int node_count, steps, done;
+    int size, steps, done; ///< size: numbers of a vector, three a node
     double shift;
-    double (*basis)[3];       ///< (steps + 1) × node_count
-    double (*left)[3];        ///< right-hand side
+    double *basis;            ///< (steps + 1) × size
+    double *left;             ///< right-hand side
     double *small;            ///< steps × steps: the operator in the basis
     double *values, *vectors; ///< of `small`
 };
 
-static double nodes_dot(const double (*a)[3], const double (*b)[3], int count)
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++) sum += vec3_dot(a[i], b[i]);
-    return sum;
-}
-
 /// Makes `v` orthogonal to the first `count` basis vectors, adds the removed parts to parts[], and scales it to length 1.
 /// Returns the length before scaling, 0 if nothing is left.
-static double orthonormalise(struct lanczos *l, double (*v)[3], int count, double *parts)
+static double orthonormalise(struct lanczos *l, double *v, int count, double *parts)
 {
-    const int n = l->node_count;
-    double start = sqrt(nodes_dot((const double(*)[3])v, (const double(*)[3])v, n));
+    const int n = l->size;
+    const double start = sqrt(maths_dot(v, v, n));
     for (int pass = 0; pass < 2; pass++) {
         for (int k = 0; k < count; k++) {
-            double(*b)[3] = l->basis + (size_t)k * (size_t)n;
-            double part = nodes_dot((const double(*)[3])v, (const double(*)[3])b, n);
+            const double *b = l->basis + (size_t)k * (size_t)n, part = maths_dot(v, b, n);
             if (parts) parts[k] += part;
-            for (int i = 0; i < n; i++) {
-                for (int c = 0; c < 3; c++) v[i][c] -= part * b[i][c];
-            }
+            for (int i = 0; i < n; i++) v[i] -= part * b[i];
         }
     }
-    double length = sqrt(nodes_dot((const double(*)[3])v, (const double(*)[3])v, n));
+    const double length = sqrt(maths_dot(v, v, n));
     if (!(length > 1e-10 * start)) return 0;
-    for (int i = 0; i < n; i++) {
-        for (int c = 0; c < 3; c++) v[i][c] /= length;
-    }
+    for (int i = 0; i < n; i++) v[i] /= length;
     return length;
 }
 
 /// A fixed pseudorandom vector, in −½ … ½, that no mode is orthogonal to.
-static void fill_start(struct lanczos *l, double (*v)[3], uint64_t seed)
+static void fill_start(struct lanczos *l, double *v, uint64_t seed)
 {
-    for (int i = 0; i < l->node_count; i++) {
-        for (int c = 0; c < 3; c++) {
-            seed = seed * 6364136223846793005u + 1442695040888963407u;
-            v[i][c] = l->body->pinned[i] ? 0 : (double)(seed >> 40) / (1 << 24) - 0.5;
-        }
+    for (int i = 0; i < l->size; i++) {
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        v[i] = l->body->pinned[i / 3] ? 0 : (double)(seed >> 40) / (1 << 24) - 0.5;
     }
 }
 
 /// Builds the basis and the operator in it. If the space is exhausted (equal eigenvalues), goes on with a new random vector.
 static void build_basis(struct lanczos *l)
 {
-    const size_t n = (size_t)l->node_count;
-    const int m = l->steps;
+    const int n = l->size, m = l->steps;
+    const double *mass = l->body->mass;
     fill_start(l, l->basis, 1);
     orthonormalise(l, l->basis, 0, NULL);
     for (int k = 0; k < m; k++) {
-        double(*next)[3] = l->basis + (size_t)(k + 1) * n;
+        double *last = l->basis + (size_t)k * (size_t)n, *next = last + n;
         double *parts = l->values; // unused until the end
         progress_report("finding the modes", k, m);
         memset(parts, 0, (size_t)m * sizeof *parts);
-
-        const double *mass = l->body->mass;
-        const double(*last)[3] = (const double(*)[3])(l->basis + (size_t)k * n);
-        for (size_t i = 0; i < n; i++) { // next = M^½ (K + sM)⁻¹ M^½ last
-            for (int c = 0; c < 3; c++) {
-                l->left[i][c] = sqrt(mass[i]) * last[i][c];
-                next[i][c] = 0;
-            }
-        }
-        conjugate_solve(&l->body->scratch, &l->body->stiffness, (const double(*)[3])l->left, next, 1e-11,
-                        GRADIENTS_MAX);
-        for (size_t i = 0; i < n; i++) {
-            for (int c = 0; c < 3; c++) next[i][c] *= sqrt(mass[i]);
-        }
+        for (int i = 0; i < n; i++) l->left[i] = sqrt(mass[i / 3]) * last[i]; // next = M^½ (K + sM)⁻¹ M^½ last
+        memset(next, 0, (size_t)n * sizeof *next);
+        conjugate_solve(&l->body->scratch, &l->body->stiffness, (const double(*)[3])(void *)l->left,
+                        (double(*)[3])(void *)next, 1e-11, GRADIENTS_MAX);
+        for (int i = 0; i < n; i++) next[i] *= sqrt(mass[i / 3]);
 
         double length = orthonormalise(l, next, k + 1, parts);
         l->done = k + 1;
@@ -578,10 +539,10 @@ void modes_create(struct modes *modes, struct body *body, int count)
     modes->frequency = pool_take(&modes->pool, (size_t)count + 1, sizeof *modes->frequency);
     modes->shape = pool_take(&modes->pool, (size_t)(count + 1) * (size_t)body->node_count, sizeof *modes->shape);
     if (steps == 0) return;
-    const size_t nodes = (size_t)body->node_count, room = (size_t)steps;
-    struct lanczos l = {.body = body, .node_count = body->node_count, .steps = steps};
-    l.basis = pool_take(&l.pool, (room + 1) * nodes, sizeof *l.basis);
-    l.left = pool_take(&l.pool, nodes, sizeof *l.left);
+    const size_t size = 3 * (size_t)body->node_count, room = (size_t)steps;
+    struct lanczos l = {.body = body, .size = (int)size, .steps = steps};
+    l.basis = pool_take(&l.pool, (room + 1) * size, sizeof *l.basis);
+    l.left = pool_take(&l.pool, size, sizeof *l.left);
     l.small = pool_take(&l.pool, room * room, sizeof *l.small);
     l.values = pool_take(&l.pool, room, sizeof *l.values);
     l.vectors = pool_take(&l.pool, room * room, sizeof *l.vectors);
@@ -589,7 +550,7 @@ void modes_create(struct modes *modes, struct body *body, int count)
     // The body's matrix becomes K + sM. The shift is a small part of the stiffness.
     struct blocks *stiff = &body->stiffness;
     double stiffness = 0, mass = 0;
-    body_forces(body, (const double(*)[3])body->rest, l.left);
+    body_forces(body, (const double(*)[3])body->rest, (double(*)[3])(void *)l.left);
     body_stiffness(body);
     for (int i = 0; i < stiff->rows; i++) {
         const double *d = stiff->block[stiff->diagonal[i]];
@@ -612,13 +573,11 @@ void modes_create(struct modes *modes, struct body *body, int count)
     symmetric_eigen(m, l.small, l.values, l.vectors);
     for (int mode = m - 1; mode >= 0 && modes->count < count; mode--) {
         const double squared = 1 / l.values[mode] - l.shift, *part = l.vectors + (size_t)mode * (size_t)m;
-        double(*shape)[3] = modes->shape + (size_t)modes->count * nodes;
+        double *shape = *modes->shape + (size_t)modes->count * size;
         if (!(l.values[mode] > 0) || squared < 1e-4 * l.shift) continue;
         modes->frequency[modes->count++] = sqrt(squared) / (2 * M_PI);
         for (size_t k = 0; k < (size_t)m; k++) { // φ = M^-½ Σ_k part_k basis_k
-            for (size_t i = 0; i < nodes; i++) {
-                for (int c = 0; c < 3; c++) shape[i][c] += part[k] * l.basis[k * nodes + i][c] / sqrt(body->mass[i]);
-            }
+            for (size_t i = 0; i < size; i++) shape[i] += part[k] * l.basis[k * size + i] / sqrt(body->mass[i / 3]);
         }
     }
     pool_free(&l.pool);

@@ -268,34 +268,14 @@ static bool pin_nodes(struct soft *soft, const struct surface *surface, const st
     return true;
 }
 
-/// The range of the pinned nodes along the shake's axis; the body's low end if none is pinned.
-static void pinned_range(const struct soft *soft, double range[2])
-{
-    range[0] = INFINITY;
-    range[1] = -INFINITY;
-    for (int i = 0; i < soft->body.node_count; i++) {
-        if (!soft->body.pinned[i]) continue;
-        range[0] = fmin(range[0], soft->body.rest[i][soft->axis]);
-        range[1] = fmax(range[1], soft->body.rest[i][soft->axis]);
-    }
-    if (soft->pinned == 0) range[0] = range[1] = soft->low;
-}
-
-/// How far the surface reaches beyond the pinned nodes along the shake's axis.
-static double farthest_away(const struct soft *soft, const double pinned[2])
-{
-    return fmax(soft->low + soft->size - pinned[1], pinned[0] - soft->low);
-}
-
 /// How far a shake moves a node, relative to its amplitude: with a driven base the same for all; else the square of the way from the
 /// pinned nodes.
-static double shaken_part(const struct soft *soft, const struct shake *shake, const double pinned[2], int node)
+static double shaken_part(const struct soft *soft, const struct shake *shake, int node)
 {
     if (soft->body.pinned[node]) return 0;
     if (shake->driven) return 1;
     double at = soft->body.rest[node][soft->axis];
-    double away = fmax(0, fmax(at - pinned[1], pinned[0] - at));
-    double farthest = fmax(farthest_away(soft, pinned), 1e-30);
+    double away = fmax(0, fmax(at - soft->held[1], soft->held[0] - at)), farthest = fmax(soft->farthest, 1e-30);
     return away / farthest * (away / farthest);
 }
 
@@ -334,12 +314,18 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     static const int order[] = {1, 0, 2, 1}; // y again if none is long enough
     const double long_enough = 0.1 * fmax(hi[0] - lo[0], fmax(hi[1] - lo[1], hi[2] - lo[2]));
     for (int k = 0; k < 4; k++) {
-        double pinned[2];
         soft->axis = order[k];
         soft->low = lo[soft->axis];
         soft->size = hi[soft->axis] - soft->low;
-        pinned_range(soft, pinned);
-        if (farthest_away(soft, pinned) > long_enough) break;
+        soft->held[0] = soft->pinned > 0 ? INFINITY : soft->low;
+        soft->held[1] = soft->pinned > 0 ? -INFINITY : soft->low;
+        for (int i = 0; i < body->node_count; i++) {
+            if (!body->pinned[i]) continue;
+            soft->held[0] = fmin(soft->held[0], body->rest[i][soft->axis]);
+            soft->held[1] = fmax(soft->held[1], body->rest[i][soft->axis]);
+        }
+        soft->farthest = fmax(soft->low + soft->size - soft->held[1], soft->held[0] - soft->low);
+        if (soft->farthest > long_enough) break;
     }
 
     // Finds the modes for Young's modulus 1 and scales it: frequencies grow with its square root.
@@ -349,14 +335,13 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
         // Finds the mode that is seen most: by the power with which it moves the surface, times how long it lasts, 1 / ω.
         const int vertices = soft->lattice.vertex_count;
         float(*vertex)[3] = need_zeroed((size_t)vertices + 1, sizeof *vertex);
-        double most = 0, all = 0, pinned[2];
-        pinned_range(soft, pinned);
+        double most = 0, all = 0;
         for (int k = 0; k < soft->modes.count; k++) {
             const double(*shape)[3] = (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)body->node_count);
             const double omega = soft->modes.frequency[k];
             double moved[3] = {0}; // Σ m φ u: how far the shake moves the mode; a push, 1 / ω as far
             for (int i = 0; i < body->node_count; i++) {
-                const double part = body->mass[i] * shaken_part(soft, options->shake, pinned, i);
+                const double part = body->mass[i] * shaken_part(soft, options->shake, i);
                 for (int c = 0; c < 3; c++) moved[c] += part * shape[i][c];
             }
             const double *along = options->shake->direction;
@@ -395,10 +380,9 @@ void soft_free(struct soft *soft)
 void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator)
 {
     if (shake->driven) return;
-    double size = shake->amplitude * soft->size * (shake->impulse ? 2 * M_PI * soft_frequency(soft) : 1), pinned[2];
-    pinned_range(soft, pinned);
+    double size = shake->amplitude * soft->size * (shake->impulse ? 2 * M_PI * soft_frequency(soft) : 1);
     for (int i = 0; i < soft->body.node_count; i++) {
-        double part = shaken_part(soft, shake, pinned, i);
+        double part = shaken_part(soft, shake, i);
         for (int c = 0; c < 3; c++) {
             double change = size * part * shake->direction[c];
             (shake->impulse ? integrator->v : integrator->x)[i][c] += change;

@@ -89,6 +89,8 @@ struct soft {
     double bottom, height; ///< of the surface along y, m
     int axis;              ///< along which a shake grows: y, unless the pinned nodes take the whole height
     double low, size;      ///< of the surface along it, m
+    double held[2];        ///< range of the pinned nodes along it, m; the surface's low end if none is pinned
+    double farthest;       ///< how far the surface reaches beyond that, m
     double young;          ///< Pa
     double alpha, beta;    ///< Rayleigh's coefficients, 1/s and s
     int pinned;            ///< nodes

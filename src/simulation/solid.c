@@ -418,21 +418,17 @@ double solid_certainty(const struct solid *solid)
 
 void solid_describe(const struct solid *solid, char text[160])
 {
-    const char *then = "";
     int at = 0;
     text[0] = '\0';
     if (solid->thickness > 0) return;
-    if (solid->duplicates > 0) {
-        at += snprintf(text + at, (size_t)(160 - at), "%d duplicate triangles left out", solid->duplicates);
-        then = ", ";
-    }
-    if (solid->turned > 0) {
-        at += snprintf(text + at, (size_t)(160 - at), "%s%d triangles turned to face outwards", then, solid->turned);
-        then = ", ";
-    }
+    if (solid->duplicates > 0) at += snprintf(text, 160, "%d duplicate triangles left out", solid->duplicates);
+    if (solid->turned > 0)
+        at += snprintf(text + at, (size_t)(160 - at), "%s%d triangles turned to face outwards", at ? ", " : "",
+                       solid->turned);
     if (solid->open > 0)
         snprintf(text + at, (size_t)(160 - at),
-                 "%sopen at %d edges: inside is where its winding number exceeds a half", then, solid->open);
+                 "%sopen at %d edges: inside is where its winding number exceeds a half", at ? ", " : "",
+                 solid->open);
 }
 
 // --- voxels: winding numbers along columns
