@@ -1,7 +1,7 @@
 /// The whole analysis of one motion: G, its poles or principal components, their shapes and splines.
 #include "analysis/analysis.h"
-#include "analysis/spectrum.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include "maths/symmetric.h"
 #include <math.h>
 #include <stdlib.h>
@@ -112,12 +112,6 @@ struct share {
     double lag, weight;
 };
 
-static int compare_lags(const void *a, const void *b)
-{
-    const struct share *x = a, *y = b;
-    return (x->lag > y->lag) - (x->lag < y->lag);
-}
-
 void component_lags(struct component *c)
 {
     struct share *shares = need((size_t)c->vertices, sizeof *shares);
@@ -131,7 +125,7 @@ void component_lags(struct component *c)
         shares[v] = (struct share){-carg(n) * 180 / M_PI, creal(n * conj(n))};
         total += shares[v].weight;
     }
-    qsort(shares, (size_t)c->vertices, sizeof *shares, compare_lags);
+    qsort(shares, (size_t)c->vertices, sizeof *shares, maths_compare);
     c->first_lag = c->last_lag = 0;
     for (int v = 0; v < c->vertices; v++) {
         if (sum <= tail_share * total) c->first_lag = shares[v].lag;
@@ -225,8 +219,8 @@ static bool find_poles(struct work *w, struct basis *basis, struct error *error)
         // G becomes that of S′ = (1 − 1 wᵀ) S: with g = G w, G − 1 gᵀ − g 1ᵀ + (wᵀ g) 1 1ᵀ, both halves at once, so that it stays
         // symmetric.
         double *product = pool_take(&w->pool, n, sizeof *product);
-        for (size_t t = 0; t < n; t++) product[t] = basis_dot(w->gram + t * n, w->middle, w->motion->frames);
-        const double twice = basis_dot(w->middle, product, w->motion->frames);
+        for (size_t t = 0; t < n; t++) product[t] = maths_dot(w->gram + t * n, w->middle, w->motion->frames);
+        const double twice = maths_dot(w->middle, product, w->motion->frames);
         for (size_t i = 0; i < n * n; i++) w->gram[i] += twice - product[i % n] - product[i / n];
     }
     w->power = trace(w->gram, w->motion->frames);
@@ -305,7 +299,7 @@ static const double more_than_noise = 2; ///< times what they would explain if t
 static void take_off(double *x, const double *along, const double *rows, int count, int frames)
 {
     double sums[PARTS * TIME_SERIES_MAX + 1];
-    for (int i = 0; i < count; i++) sums[i] = basis_dot(along + (size_t)i * (size_t)frames, x, frames);
+    for (int i = 0; i < count; i++) sums[i] = maths_dot(along + (size_t)i * (size_t)frames, x, frames);
     for (int i = 0; i < count; i++, rows += frames) {
         for (int t = 0; t < frames; t++) x[t] -= sums[i] * rows[t];
     }

@@ -1,6 +1,7 @@
 /// Finds poles, chooses those that matter, and fits their time series.
 #include "analysis/spectrum.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,12 +67,6 @@ static int eigenvalues(const struct lapack *lapack, const double *vectors, int l
     return status;
 }
 
-static int compare_poles(const void *a, const void *b)
-{
-    const struct pole *p = a, *q = b;
-    return (p->wander > q->wander) - (p->wander < q->wander);
-}
-
 /// The poles of the motion's order, and how far each wanders at larger orders.
 static int esprit(const struct lapack *lapack, const double *vectors, const double *values, int length,
                   struct pole *poles)
@@ -97,7 +92,7 @@ static int esprit(const struct lapack *lapack, const double *vectors, const doub
     for (int k = 0; k < order && count < SUBSPACE_POLES_MAX; k++) {
         const double complex s = clog(z[k]);
         const bool swings = cabs(z[k]) > 1e-6 && cimag(s) > 1e-6 && cimag(s) < M_PI - 1e-6;
-        if (swings && creal(s) < growth_most * cabs(s)) poles[count++] = (struct pole){z[k], 0};
+        if (swings && creal(s) < growth_most * cabs(s)) poles[count++] = (struct pole){.z = z[k]};
     }
     for (int larger = order + ORDER_STEP; larger <= most; larger += ORDER_STEP) {
         if (eigenvalues(lapack, vectors, length, larger, a, z) != 0) return -1;
@@ -110,7 +105,7 @@ static int esprit(const struct lapack *lapack, const double *vectors, const doub
             poles[k].wander = fmax(poles[k].wander, nearest);
         }
     }
-    qsort(poles, (size_t)count, sizeof *poles, compare_poles);
+    qsort(poles, (size_t)count, sizeof *poles, maths_compare);
     return count;
 }
 
@@ -240,7 +235,7 @@ int exponentials_choose(struct pole *poles, int count, int most, double least, c
                     const double *above = basis->lower + (k + i / 2) * basis->capacity,
                                  *below = basis->lower + (k + i % 2) * basis->capacity;
                     double share = 0, product = 0;
-                    for (size_t t = 0; t < n; t++) share += a[t] * basis_dot(gram + t * n, b, basis->frames);
+                    for (size_t t = 0; t < n; t++) share += a[t] * maths_dot(gram + t * n, b, basis->frames);
                     for (int j = 0; j < basis->capacity; j++) product += above[j] * below[j];
                     part += share * product;
                 }

@@ -10,8 +10,8 @@
 ///
 /// A point or a line leaves rotations open. A little weight on the identity chooses the smallest.
 #include "analysis/analysis.h"
-#include "analysis/spectrum.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -107,9 +107,9 @@ static bool keep_slow(double *path, int rows, int frames, int degree)
     }
     for (double *row = path; row < path + (size_t)rows * (size_t)frames; row += frames) {
         double part[POWERS];
-        left += basis_dot(row, row, frames);
+        left += maths_dot(row, row, frames);
         for (int k = 0; k <= degree; k++) {
-            part[k] = basis_dot(row, basis.q + (size_t)k * (size_t)frames, frames);
+            part[k] = maths_dot(row, basis.q + (size_t)k * (size_t)frames, frames);
             left -= part[k] * part[k];
             along += k > 0 ? part[k] * part[k] : 0;
         }
@@ -313,12 +313,6 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
     return done;
 }
 
-static int compare_sizes(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 double rigid_share(const double complex (*shape)[3], const struct surface *rest)
 {
     enum { TURN = 3, MOTIONS = 6, FEWEST = 4 };
@@ -335,7 +329,7 @@ double rigid_share(const double complex (*shape)[3], const struct surface *rest)
         for (int c = 0; c < 3; c++) size[v] += creal(shape[v][c] * conj(shape[v][c]));
         if (used[v]) part[count++] = size[v];
     }
-    qsort(part, (size_t)count, sizeof *part, compare_sizes);
+    qsort(part, (size_t)count, sizeof *part, maths_compare);
     const double most = count > 0 ? part[(int)fmin(fmax(calm_part * count, FEWEST), count) - 1] : 0;
 
     // Weights that fit small rigid motions to those: translations, and turns e × r.
@@ -357,7 +351,7 @@ double rigid_share(const double complex (*shape)[3], const struct surface *rest)
         double along[MOTIONS];
         for (int n = 0; n < columns; n++)
             part[n] = imaginary ? cimag(shape[n / 3][n % 3]) : creal(shape[n / 3][n % 3]);
-        for (size_t m = 0; m < MOTIONS; m++) along[m] = basis_dot(weights + m * room, part, columns);
+        for (size_t m = 0; m < MOTIONS; m++) along[m] = maths_dot(weights + m * room, part, columns);
         for (int n = 0; n < columns; n++) {
             if (!used[n / 3]) continue;
             const int a = n % 3, b = (a + 1) % 3, c = (a + 2) % 3;

@@ -1,4 +1,4 @@
-/// Complex and real principal components from G, by LAPACKE.
+/// Least squares on sequences over the frames, and complex and real principal components from G, by LAPACKE.
 ///
 /// The Hilbert transform: x̂ = K x̄, where x̄ is x with a continuation on either side (together as long as x) and K is the Hilbert transform of a
 /// periodic sequence of even length L:  K_ts = (2/L) cot(π (t − s)/L) for t − s odd, else 0.
@@ -12,9 +12,69 @@
 /// G = S Sᵀ alone. Burg's reflection coefficients lie within the unit circle, so the continuation never grows.
 #include "analysis/spectrum.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- Gram-Schmidt on sequences over the frames, each made orthogonal twice, so that close poles keep their digits
+
+static const double dependent = 1e-12; ///< a sequence with less than this share left is a combination of the others
+
+void basis_create(struct basis *b, int frames, int capacity)
+{
+    *b = (struct basis){.frames = frames, .capacity = capacity};
+    b->q = pool_take(&b->pool, (size_t)capacity * (size_t)frames, sizeof *b->q);
+    b->lower = pool_take(&b->pool, (size_t)capacity * (size_t)capacity, sizeof *b->lower);
+}
+
+void basis_append(struct basis *b, const double *sequence)
+{
+    size_t n = (size_t)b->frames, row = (size_t)b->count;
+    double *q = b->q + row * n, *lower = b->lower + row * (size_t)b->capacity;
+    memcpy(q, sequence, n * sizeof *q);
+    memset(lower, 0, (size_t)b->capacity * sizeof *lower);
+    double whole = sqrt(maths_dot(q, q, b->frames));
+    for (int pass = 0; pass < 2; pass++) {
+        for (size_t k = 0; k < row; k++) {
+            double along = maths_dot(q, b->q + k * n, b->frames);
+            lower[k] += along;
+            for (size_t t = 0; t < n; t++) q[t] -= along * b->q[k * n + t];
+        }
+    }
+    double left = sqrt(maths_dot(q, q, b->frames));
+    bool spanned = !(left > dependent * whole);
+    for (size_t t = 0; t < n; t++) q[t] = spanned ? 0 : q[t] / left;
+    lower[row] = spanned ? 0 : left;
+    b->count++;
+}
+
+double basis_gain(const struct basis *b, int last, const double *gram)
+{
+    size_t n = (size_t)b->frames;
+    double gain = 0;
+    for (int k = b->count - last; k < b->count; k++) {
+        const double *q = b->q + (size_t)k * n;
+        for (size_t t = 0; t < n; t++) gain += q[t] * maths_dot(q, gram + t * n, b->frames);
+    }
+    return gain;
+}
+
+void basis_weights(const struct basis *b, double *weights)
+{
+    // W = L⁻ᵀ Q, from the last row upwards
+    size_t n = (size_t)b->frames, capacity = (size_t)b->capacity;
+    memcpy(weights, b->q, (size_t)b->count * n * sizeof *weights);
+    for (size_t i = (size_t)b->count; i-- > 0;) {
+        double pivot = b->lower[i * capacity + i];
+        for (size_t k = i + 1; k < (size_t)b->count; k++) {
+            for (size_t t = 0; t < n; t++) weights[i * n + t] -= b->lower[k * capacity + i] * weights[k * n + t];
+        }
+        for (size_t t = 0; t < n; t++) weights[i * n + t] = pivot > 0 ? weights[i * n + t] / pivot : 0;
+    }
+}
+
+// --- the Hilbert transform and the components
 
 /// Another coefficient needs this share of the power left to predict; less is the rounding of float data.
 static const double least_power = 1e-9;
@@ -161,8 +221,8 @@ bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const doub
     lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, frames, frames, frames, 1, hg, frames, s->transform,
                   frames, 1, hgh, frames);
     for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j < n; j++) // column-major, as LAPACK needs it
-            s->vectors[j * n + i] = hgh[i * n + j] + I * (hg[i * n + j] - hg[j * n + i]);
+        for (size_t j = 0; j < n; j++) // column-major, as LAPACK needs it, and the opposite: it sorts ascending
+            s->vectors[j * n + i] = -hgh[i * n + j] - I * (hg[i * n + j] - hg[j * n + i]);
     }
     free(hg);
     if (lapack->zheevd(LAPACK_COLUMNS_FIRST, 'V', 'L', frames, s->vectors, frames, s->values) != 0) {
@@ -170,18 +230,8 @@ bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const doub
         return false;
     }
 
-    for (size_t i = 0, j = n - 1; i < j; i++, j--) { // LAPACK sorts ascending
-        double value = s->values[i];
-        s->values[i] = s->values[j];
-        s->values[j] = value;
-        for (size_t t = 0; t < n; t++) {
-            double complex number = s->vectors[i * n + t];
-            s->vectors[i * n + t] = s->vectors[j * n + t];
-            s->vectors[j * n + t] = number;
-        }
-    }
     for (size_t i = 0; i < n; i++) {
-        if (s->values[i] < 0) s->values[i] = 0; // rounding
+        s->values[i] = fmax(-s->values[i], 0); // below 0 by rounding
         s->total += s->values[i];
     }
     return true;

@@ -7,8 +7,6 @@
 #include <complex.h>
 #include <stdbool.h>
 
-double basis_dot(const double *a, const double *b, int count);
-
 /// B: `count` sequences, each of `frames` numbers. B = L Q with orthonormal rows of Q and L lower triangular.
 struct basis {
     struct pool pool; ///< has all below
@@ -77,8 +75,8 @@ enum { SUBSPACE_ORDER_MAX = 24, SUBSPACE_POLES_MAX = SUBSPACE_ORDER_MAX / 2 };
 
 /// One oscillation, z^t at frame t.
 struct pole {
-    double complex z; ///< Im z > 0
     double wander;    ///< how far it moves as the order grows, |Δs| / |s|: small for a true pole of the motion
+    double complex z; ///< Im z > 0
 };
 
 /// Finds the oscillations that all columns of S share, from G (frames × frames, row after row, both halves), the steadiest first.
