@@ -50,26 +50,19 @@ ALWAYS_INLINE twin chosen(twin a, twin other, masks where)
     return (twin)(((masks)a & where) | ((masks)other & ~where));
 }
 
-static const band_block *of_sample(const band_matrix *m, int k, band_block *usual)
-{
-    if (m->marks[k] & BAND_OWN) {
-        *usual = m->own[k];
-    } else if (m->is_alike) {
-        *usual = m->alike;
-    } else {
-        *usual = (band_block){.d = {m->d[k], 0, m->d[k]},
-                              .e = {m->e_re[k], -m->e_im[k], m->e_im[k], m->e_re[k]},
-                              .f = {m->f_re[k], -m->f_im[k], m->f_im[k], m->f_re[k]}};
-        if (m->im_weight) usual->d[2] += m->im_weight[k];
-    }
-    if (m->stiffness) usual->d[0] += m->stiffness[k];
-    return usual;
-}
-
 band_block band_block_at(const band_matrix *m, int k)
 {
-    band_block block;
-    return *of_sample(m, k, &block);
+    band_block block = m->alike;
+    if (m->marks[k] & BAND_OWN) {
+        block = m->own[k];
+    } else if (!m->is_alike) {
+        block = (band_block){.d = {m->d[k], 0, m->d[k]},
+                             .e = {m->e_re[k], -m->e_im[k], m->e_im[k], m->e_re[k]},
+                             .f = {m->f_re[k], -m->f_im[k], m->f_im[k], m->f_re[k]}};
+        if (m->im_weight) block.d[2] += m->im_weight[k];
+    }
+    if (m->stiffness) block.d[0] += m->stiffness[k];
+    return block;
 }
 
 band_block *band_own(band_matrix *m, int k)
@@ -77,7 +70,7 @@ band_block *band_own(band_matrix *m, int k)
     if (m->marks[k] & BAND_OWN) return &m->own[k];
     const double *stiffness = m->stiffness;
     m->stiffness = NULL;
-    of_sample(m, k, &m->own[k]);
+    m->own[k] = band_block_at(m, k);
     m->stiffness = stiffness;
     m->marks[k] |= BAND_OWN;
     for (int i = k; i < k + 3 && i < m->count; i++) m->marks[i] |= BAND_BESIDE;
@@ -113,12 +106,6 @@ bool band_is_kept(const band_matrix *m)
     return true;
 }
 
-double band_diagonal(const band_matrix *m, int k, int part)
-{
-    band_block block;
-    return of_sample(m, k, &block)->d[2 * part];
-}
-
 /// A_ij of two different samples, rows i.
 static void couple(const band_matrix *m, int i, int j, double a[4])
 {
@@ -126,14 +113,13 @@ static void couple(const band_matrix *m, int i, int j, double a[4])
     const int n = m->count;
     memset(a, 0, 4 * sizeof *a);
     for (int by = 1; by <= 2; by++) {
-        band_block block;
         if (j + by == i || (m->cyclic && j + by == i + n)) {
-            const double *c = by == 1 ? of_sample(m, j, &block)->e : of_sample(m, j, &block)->f;
-            for (int k = 0; k < 4; k++) a[k] += c[k];
+            const band_block block = band_block_at(m, j);
+            for (int k = 0; k < 4; k++) a[k] += by == 1 ? block.e[k] : block.f[k];
         }
         if (i + by == j || (m->cyclic && i + by == j + n)) {
-            const double *c = by == 1 ? of_sample(m, i, &block)->e : of_sample(m, i, &block)->f;
-            for (int k = 0; k < 4; k++) a[k] += c[turned[k]];
+            const band_block block = band_block_at(m, i);
+            for (int k = 0; k < 4; k++) a[k] += (by == 1 ? block.e : block.f)[turned[k]];
         }
     }
 }
@@ -157,13 +143,12 @@ ALWAYS_INLINE unsigned unusual(const bool is_complex, unsigned up, unsigned down
 /// Blocks one by one.
 static void load_each(const band_matrix *m, int up, int down, step_blocks *s)
 {
-    band_block block[4];
-    const band_block *a = of_sample(m, up, &block[0]), *b = of_sample(m, down, &block[1]);
-    const double *e = of_sample(m, down - 1, &block[2])->e, *f = of_sample(m, down - 2, &block[3])->f;
-    s->a = (twin){a->d[0], b->d[0]}, s->b = (twin){a->d[1], b->d[1]}, s->d = (twin){a->d[2], b->d[2]};
+    const band_block a = band_block_at(m, up), b = band_block_at(m, down), next = band_block_at(m, down - 1),
+                     after = band_block_at(m, down - 2);
+    s->a = (twin){a.d[0], b.d[0]}, s->b = (twin){a.d[1], b.d[1]}, s->d = (twin){a.d[2], b.d[2]};
     for (int i = 0; i < 2; i++) {
-        s->u[i] = (twin){a->e[2 * i], e[i]}, s->v[i] = (twin){a->e[2 * i + 1], e[2 + i]};
-        s->f[i] = (twin){a->f[2 * i], f[i]}, s->g[i] = (twin){a->f[2 * i + 1], f[2 + i]};
+        s->u[i] = (twin){a.e[2 * i], next.e[i]}, s->v[i] = (twin){a.e[2 * i + 1], next.e[2 + i]};
+        s->f[i] = (twin){a.f[2 * i], after.f[i]}, s->g[i] = (twin){a.f[2 * i + 1], after.f[2 + i]};
     }
     const unsigned above = m->marks[up], below = m->marks[down];
     s->is_known = (above | below) & (FIXED_RE | FIXED_IM);
@@ -707,9 +692,8 @@ static void sum_spread(band_matrix *m)
     for (int k = 0; k < m->count; k++) {
         double a = usual;
         if (m->marks[k] & BAND_OWN || m->stiffness) {
-            band_block block;
-            const double *d = of_sample(m, k, &block)->d;
-            a = m->is_complex && d[2] > d[0] ? d[2] : d[0];
+            const band_block block = band_block_at(m, k);
+            a = m->is_complex && block.d[2] > block.d[0] ? block.d[2] : block.d[0];
         } else if (!m->is_alike) {
             a = m->d[k] + (m->im_weight ? m->im_weight[k] : 0);
         }
@@ -755,7 +739,7 @@ ALWAYS_INLINE void forward_all(band_matrix *m, const bool is_complex, const bool
     }
 }
 
-static double solve(band_matrix *m, double *x, bool spread)
+double band_solve(band_matrix *m, double *x, bool spread)
 {
     passed p = {.near = {{0}}};
     if (m->is_complex) {
@@ -771,10 +755,6 @@ static double solve(band_matrix *m, double *x, bool spread)
     }
     return back_any(m, x, &p, spread);
 }
-
-double band_solve(band_matrix *m, double *x) { return solve(m, x, false); }
-
-double band_solve_spread(band_matrix *m, double *x) { return solve(m, x, true); }
 
 bool band_factor_solve(band_matrix *m, double *x)
 {

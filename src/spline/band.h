@@ -67,17 +67,12 @@ band_block *band_own(band_matrix *band, int k);
 /// Factors. False: a pivot is not positive.
 bool band_factor(band_matrix *band);
 
-/// Solves in place: `x` is the right side, re, im of each sample, then the solution, 0 where a value is known. Returns b·A⁻¹b.
-double band_solve(band_matrix *band, double *x);
+/// Solves in place: `x` is the right side, re, im of each sample, then the solution, 0 where a value is known. Returns b·A⁻¹b. With `spread` it
+/// finds that, `largest` and `rounding` on the way.
+double band_solve(band_matrix *band, double *x, bool spread);
 
-/// The same, and finds `spread`, `largest` and `rounding` on the way.
-double band_solve_spread(band_matrix *band, double *x);
-
-/// band_factor() and that.
+/// band_factor() and that, with the spread.
 bool band_factor_solve(band_matrix *band, double *x);
-
-/// The matrix's diagonal, of Re x or of Im x.
-double band_diagonal(const band_matrix *band, int k, int part);
 
 // --- the factor's storage, for those who factor the rows ---
 

@@ -379,13 +379,9 @@ static void limits_solve(void *user, double *force)
     double *residual = rows->gradient, *x = rows->x;
     memset(x, 0, sizeof *x * (size_t)unknowns);
     for (int i = 0; i < w->search.count; i++) x[2 * (shift + i)] = m->marks[shift + i] & FIXED_RE ? 0 : force[i];
-    if (w->fresh) {
-        band_solve_spread(m, x);
-        w->is_lossy = m->is_complex && !(m->rounding < lossy);
-        w->fresh = false;
-    } else {
-        band_solve(m, x);
-    }
+    band_solve(m, x, w->fresh);
+    if (w->fresh) w->is_lossy = m->is_complex && !(m->rounding < lossy);
+    w->fresh = false;
     if (w->is_lossy) { // force − (H + stiffness) x, by the unsquared rows
         system_gradient(rows, NULL, NULL);
         if (has_tail(w)) pull_tail(w);
@@ -394,7 +390,7 @@ static void limits_solve(void *user, double *force)
             if (k < rows->count && rows->fixed[k] & FIXED_RE) continue;
             residual[2 * k] += force[i] - m->stiffness[k] * x[2 * k];
         }
-        band_solve(m, residual);
+        band_solve(m, residual, false);
         for (int i = 0; i < unknowns; i++) x[i] += residual[i];
     }
     for (int i = 0; i < w->search.count; i++) force[i] = x[2 * (shift + i)];

@@ -6,8 +6,8 @@
 //     D_k = |A_k|² + |B_{k+1}|² + 1        E_k = −A_k − A_{k+1}* B_{k+1}        F_k = B_{k+1}
 //
 // of weighted rows. With constant poles all samples share one block; only those beside an end, a slope or a still knot have their own.
-#include "spline/system.h"
 #include "maths/wide.h"
+#include "spline/system.h"
 #include <string.h>
 
 jet_row system_jet(const system_rows *rows, int i)
@@ -62,12 +62,10 @@ static void set_own_around(const system_rows *rows, band_matrix *m, int i)
 stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
 {
     const int k = slope->sample;
-    stencil s = {.before = system_beside(rows, k, -1),
-                 .at = k,
-                 .after = system_beside(rows, k, 1),
+    stencil s = {.at = {system_beside(rows, k, -1), k, system_beside(rows, k, 1)},
                  .c = {cplx_scale(-1, slope->behind), cplx_add(slope->here, cplx_sub(slope->behind, slope->ahead)),
                        slope->ahead}};
-    if (s.after < 0) s.c[1] = cplx_add(s.c[1], cplx_mul(slope->ahead, (cplx){1 + rows->tail.re, rows->tail.im}));
+    if (s.at[2] < 0) s.c[1] = cplx_add(s.c[1], cplx_mul(slope->ahead, (cplx){1 + rows->tail.re, rows->tail.im}));
     return s;
 }
 
@@ -82,45 +80,6 @@ static void add_product(double *block, double w, cplx to, cplx from)
 {
     block[0] += w * (to.re * from.re), block[1] -= w * (to.re * from.im);
     block[2] -= w * (to.im * from.re), block[3] += w * (to.im * from.im);
-}
-
-/// The slopes (eq. 9).
-static void slope_rows(const system_rows *rows, band_matrix *m)
-{
-    for (int r = 0; r < rows->slope_count; r++) {
-        const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
-        const double w = rows->slopes[r].weight;
-        const int at[3] = {s.before, s.at, s.after};
-        for (int i = 0; i < 3; i++) {
-            for (int j = 0; at[i] >= 0 && j <= i; j++) {
-                if (at[j] < 0) continue;
-                band_block *block = band_own(m, at[j]);
-                if (i == j) {
-                    add_square(block->d, w, s.c[i]);
-                } else {
-                    add_product(i - j == 2 ? block->f : block->e, w, s.c[i], s.c[j]);
-                }
-            }
-        }
-    }
-}
-
-static void start_rows(const system_rows *rows, band_matrix *m)
-{
-    for (int i = 0; i < 2; i++) {
-        const struct start_row *row = &rows->start.row[i];
-        if (!(row->weight > 0)) continue;
-        const bool alone = rows->count == 1;
-        const cplx on_x0 =
-            alone ? cplx_add(row->on_x, cplx_mul(row->on_e, rows->tail)) : cplx_sub(row->on_x, row->on_e);
-        band_block *block = band_own(m, 0);
-        const double first = row->weight * cplx_norm(on_x0), second = row->weight * cplx_norm(row->on_e);
-        block->d[0] += first, block->d[2] += first;
-        if (alone) continue;
-        put_complex(block->e, cplx_scale(row->weight, cplx_mul(cplx_conj(row->on_e), on_x0)));
-        block = band_own(m, 1);
-        block->d[0] += second, block->d[2] += second;
-    }
 }
 
 /// The blocks of varying rows, as if all around them were jets of the usual kind.
@@ -171,6 +130,30 @@ void system_matrix(const system_rows *rows, band_matrix *m)
         if (each || rows->fixed[k] & (FIXED_STILL | JET_TWICE)) set_own_around(rows, m, k);
     }
     if (rows->loop && !rows->is_constant) set_own_around(rows, m, 0), set_own_around(rows, m, n - 1);
-    slope_rows(rows, m);
-    start_rows(rows, m);
+    for (int r = 0; r < rows->slope_count; r++) { // the slopes (eq. 9)
+        const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
+        const double w = rows->slopes[r].weight;
+        for (int pair = 0; pair < 9; pair++) {
+            const int i = pair / 3, j = pair % 3;
+            if (j > i || s.at[i] < 0 || s.at[j] < 0) continue;
+            band_block *block = band_own(m, s.at[j]);
+            if (i == j) {
+                add_square(block->d, w, s.c[i]);
+            } else {
+                add_product(i - j == 2 ? block->f : block->e, w, s.c[i], s.c[j]);
+            }
+        }
+    }
+    for (int i = 0; i < 2; i++) { // the start's rows
+        const struct start_row *row = &rows->start.row[i];
+        if (!(row->weight > 0)) continue;
+        const cplx on_x0 = system_start_on_x(rows, row);
+        band_block *block = band_own(m, 0);
+        const double first = row->weight * cplx_norm(on_x0), second = row->weight * cplx_norm(row->on_e);
+        block->d[0] += first, block->d[2] += first;
+        if (n == 1) continue;
+        put_complex(block->e, cplx_scale(row->weight, cplx_mul(cplx_conj(row->on_e), on_x0)));
+        block = band_own(m, 1);
+        block->d[0] += second, block->d[2] += second;
+    }
 }

@@ -13,8 +13,8 @@
 // An error e of the response u moves the targets of w, and adds itself to the total. But what of e is a free motion, w takes back: the error of
 // u + w is the x that is 0 at the knots and minimises ‖W^½ R (x − e)‖, so it is within √D ‖W^½ R e‖ (forced_response.c), and outside the system
 // within twice e more. The smaller of the two counts.
-#include "spline/solver.h"
 #include "maths/wide.h"
+#include "spline/solver.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -69,7 +69,7 @@ static void solve_first(wiggly_solver *solver)
     } else {
         system_right_side(rows, m);
     }
-    (m->has_spread ? band_solve : band_solve_spread)(m, rows->gradient);
+    band_solve(m, rows->gradient, !m->has_spread);
     put_solution(rows);
 }
 
@@ -87,7 +87,7 @@ static minimum finish(wiggly_solver *solver)
     for (int n = 0; n < CORRECTIONS; n++) {
         row_errors errors;
         system_gradient(rows, m, &errors);
-        const double change = sqrt(fmax(band_solve(m, rows->gradient), 0)); // in the norm of the energy
+        const double change = sqrt(fmax(band_solve(m, rows->gradient, false), 0)); // in the norm of the energy
         const double left = change * m->rounding / (1 - m->rounding);
         result.largest = add_change(rows->x, rows->gradient, 2 * rows->count);
         result.sweeps = n + 1;

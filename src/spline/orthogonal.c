@@ -56,11 +56,11 @@ static void take_row(walk *w, double *row)
 }
 
 /// Whether a row on these samples is taken now: where it begins.
-static bool begins_here(const walk *w, int n, const int *samples)
+static bool begins_here(const walk *w, const int samples[3])
 {
     int least = w->interior, most = -1;
-    for (int i = 0; i < n; i++) {
-        if (samples[i] >= w->interior) continue;
+    for (int i = 0; i < 3; i++) {
+        if (samples[i] < 0 || samples[i] >= w->interior) continue;
         least = samples[i] < least ? samples[i] : least;
         most = samples[i] > most ? samples[i] : most;
     }
@@ -69,39 +69,25 @@ static bool begins_here(const walk *w, int n, const int *samples)
     return w->lane == BETWEEN;
 }
 
-/// Adds a complex row of coefficients on n samples, as two real ones, or one outside complex mode or if it is `real`: Re(c x).
-static void add_row(walk *w, double weight, bool real, int n, const int *samples, const cplx *c)
+/// Adds a complex row of coefficients on up to three samples, as two real ones, or one outside complex mode or if it is `real`: Re(c x).
+static void add_row(walk *w, double weight, bool real, const stencil *s)
 {
-    if (!(weight > 0) || !begins_here(w, n, samples)) return;
+    if (!(weight > 0) || !begins_here(w, s->at)) return;
     const double root = sqrt(weight);
     double re[COLUMNS] = {0}, im[COLUMNS] = {0};
-    for (int i = 0; i < n; i++) {
-        put(w, re, samples[i], 0, root * c[i].re);
-        put(w, re, samples[i], 1, -root * c[i].im);
-        put(w, im, samples[i], 0, root * c[i].im);
-        put(w, im, samples[i], 1, root * c[i].re);
+    for (int i = 0; i < 3; i++) {
+        if (s->at[i] < 0) continue;
+        put(w, re, s->at[i], 0, root * s->c[i].re);
+        put(w, re, s->at[i], 1, -root * s->c[i].im);
+        put(w, im, s->at[i], 0, root * s->c[i].im);
+        put(w, im, s->at[i], 1, root * s->c[i].re);
     }
     take_row(w, re);
     if (w->rows->is_complex && !real) take_row(w, im);
 }
 
-static void add_jet(walk *w, int i)
-{
-    const system_rows *rows = w->rows;
-    const jet_row jet = system_jet(rows, i);
-    const int before = system_beside(rows, i, -1), after = system_beside(rows, i, 1);
-    const cplx one = {1, 0};
-    if (rows->fixed[i] & FIXED_STILL) { // two rows
-        if (before >= 0) add_row(w, jet.weight, false, 1, &before, &jet.before);
-        if (after >= 0) add_row(w, jet.weight, false, 1, &after, &one);
-        return;
-    }
-    int samples[3] = {i}, count = 1;
-    cplx c[3] = {jet.own};
-    if (before >= 0) samples[count] = before, c[count++] = jet.before;
-    if (after >= 0) samples[count] = after, c[count++] = one;
-    add_row(w, jet.weight, false, count, samples, c);
-}
+/// A row on one sample.
+static stencil row_on(int sample, cplx c) { return (stencil){.at = {-1, sample, -1}, .c = {[1] = c}}; }
 
 /// Adds the slopes on a sample.
 static void add_slopes(walk *w, int sample)
@@ -117,26 +103,11 @@ static void add_slopes(walk *w, int sample)
         }
     }
     for (; from < rows->slope_count && rows->slopes[from].sample == sample; from++) {
-        const stencil s = system_slope_stencil(rows, &rows->slopes[from]);
-        const int at[3] = {s.before, s.at, s.after};
-        int samples[3], count = 0;
-        cplx c[3];
+        stencil s = system_slope_stencil(rows, &rows->slopes[from]);
         for (int i = 0; i < 3; i++) {
-            if (at[i] >= 0 && (s.c[i].re != 0 || s.c[i].im != 0)) samples[count] = at[i], c[count++] = s.c[i];
+            if (s.c[i].re == 0 && s.c[i].im == 0) s.at[i] = -1;
         }
-        add_row(w, rows->slopes[from].weight, true, count, samples, c);
-    }
-}
-
-static void add_start(walk *w)
-{
-    const system_rows *rows = w->rows;
-    const bool alone = rows->count == 1;
-    for (int i = 0; i < 2; i++) {
-        const struct start_row *row = &rows->start.row[i];
-        const cplx on_x0 =
-            alone ? cplx_add(row->on_x, cplx_mul(row->on_e, rows->tail)) : cplx_sub(row->on_x, row->on_e);
-        add_row(w, row->weight, false, alone ? 1 : 2, (int[]){0, 1}, (cplx[]){on_x0, row->on_e});
+        add_row(w, rows->slopes[from].weight, true, &s);
     }
 }
 
@@ -144,11 +115,25 @@ static void add_start(walk *w)
 static void add_rows(walk *w, int sample)
 {
     const system_rows *rows = w->rows;
-    const double weight = rows->is_constant ? rows->own_im : rows->im_weight[sample];
-    add_jet(w, sample);
+    const jet_row jet = system_jet(rows, sample);
+    const int before = system_beside(rows, sample, -1), after = system_beside(rows, sample, 1);
+    if (rows->fixed[sample] & FIXED_STILL) { // two jets
+        const stencil back = row_on(before, jet.before), ahead = row_on(after, (cplx){1, 0});
+        add_row(w, jet.weight, false, &back);
+        add_row(w, jet.weight, false, &ahead);
+    } else {
+        const stencil s = {.at = {before, sample, after}, .c = {jet.before, jet.own, {1, 0}}};
+        add_row(w, jet.weight, false, &s);
+    }
     add_slopes(w, sample);
-    if (rows->is_complex) add_row(w, weight, true, 1, &sample, &(cplx){0, -1});
-    if (sample == 0) add_start(w);
+    const stencil im = row_on(sample, (cplx){0, -1});
+    if (rows->is_complex) add_row(w, rows->is_constant ? rows->own_im : rows->im_weight[sample], true, &im);
+    for (int i = 0; sample == 0 && i < 2; i++) {
+        const struct start_row *row = &rows->start.row[i];
+        const stencil s = {.at = {-1, 0, rows->count > 1 ? 1 : -1},
+                           .c = {{0, 0}, system_start_on_x(rows, row), row->on_e}};
+        add_row(w, row->weight, false, &s);
+    }
 }
 
 /// The pivot of an unknown; that of a fixed one is 1. False: there is none.

@@ -7,8 +7,8 @@
 //
 // The differences are those of near numbers, so they are exact or almost. Beside it are sums of what the rows' own rounding may be
 // (minimise.c has the bound).
-#include "spline/system.h"
 #include "maths/wide.h"
+#include "spline/system.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -135,14 +135,18 @@ ALWAYS_INLINE double pull_jets(const system_rows *rows, const bool is_constant, 
     return root * root;
 }
 
+static coefficient_loss loss_at(const system_rows *rows, int i)
+{
+    return rows->is_constant ? rows->own_loss : (coefficient_loss){rows->loss_m[i], rows->loss_p[i]};
+}
+
 /// The square of what the jets' coefficients' rounding pulls at most, a unit of energy: Σ w (Δm √D of the difference + Δp √D of the sample before)².
 static double pull_of_jets(const system_rows *rows, const double *spread)
 {
     const int last = rows->count - 1;
     double sum = 0;
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        const coefficient_loss loss =
-            rows->is_constant ? rows->own_loss : (coefficient_loss){rows->loss_m[i], rows->loss_p[i]};
+        const coefficient_loss loss = loss_at(rows, i);
         const double *d = spread + 2 * i, before = i > 0 ? d[-2] : rows->loop ? spread[2 * last] : 0;
         const double weight = (rows->is_constant ? 1 : rows->jet_weight[i]) * (rows->fixed[i] & JET_TWICE ? 2 : 1);
         sum += weight * (loss.m * loss.m * d[1] + loss.p * loss.p * before);
@@ -150,26 +154,15 @@ static double pull_of_jets(const system_rows *rows, const double *spread)
     return 2 * sum;
 }
 
-static inline void pull(const system_rows *rows, int k, cplx c, cplx j)
+static inline void load(const system_rows *rows, int k, cplx by)
 {
-    const cplx pulled = cplx_mul(cplx_conj(c), j);
-    rows->gradient[2 * k] -= pulled.re, rows->gradient[2 * k + 1] -= pulled.im;
+    if (k >= 0) rows->gradient[2 * k] += by.re, rows->gradient[2 * k + 1] += by.im;
 }
 
-/// What the usual adjoint leaves out: the tail's row, and the second row of still knots, whose own sample is known.
-static void adjust(const system_rows *rows)
+/// Subtracts a row's coefficient times what it costs.
+static inline void pull(const system_rows *rows, int k, cplx c, cplx j)
 {
-    const int n = rows->count, last = n - 1;
-    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        if (!(rows->fixed[i] & FIXED_STILL) || (i == last && !rows->loop)) continue;
-        const int after = i < last ? i + 1 : 0;
-        const double weight = system_jet(rows, i).weight;
-        const cplx from = as_cplx(sample_at(rows->x, i)), to = as_cplx(sample_at(rows->x, after));
-        const cplx jet = cplx_scale(weight, cplx_sub(to, from));
-        pull(rows, after, (cplx){1, 0}, cplx_sub(jet, as_cplx(sample_at(rows->jet, i))));
-    }
-    if (!rows->loop && rows->jet_to == last && !(rows->fixed[last] & FIXED_STILL))
-        pull(rows, last, (cplx){1 + rows->tail.re, rows->tail.im}, as_cplx(sample_at(rows->jet, last)));
+    load(rows, k, cplx_scale(-1, cplx_mul(cplx_conj(c), j)));
 }
 
 /// The jets' gradient if poles fade within a sample: a and b themselves are small then, and differences would cost their digits.
@@ -190,42 +183,26 @@ static double pull_each(const system_rows *rows, double *energy)
         if (!still) r = cplx_add(r, ahead);
         const cplx j = cplx_scale(row.weight, r);
         pull(rows, i, row.own, j);
-        if (before >= 0) pull(rows, before, row.before, j);
-        if (after >= 0) pull(rows, after, (cplx){1, 0}, still ? cplx_scale(row.weight, cplx_sub(ahead, x)) : j);
-        const double lm = rows->is_constant ? rows->own_loss.m : rows->loss_m[i];
-        const double lp = rows->is_constant ? rows->own_loss.p : rows->loss_p[i];
-        const double off = lm * cplx_size(cplx_sub(x, back)) + lp * cplx_size(back);
+        pull(rows, before, row.before, j);
+        pull(rows, after, (cplx){1, 0}, still ? cplx_scale(row.weight, cplx_sub(ahead, x)) : j);
+        const coefficient_loss loss = loss_at(rows, i);
+        const double off = loss.m * cplx_size(cplx_sub(x, back)) + loss.p * cplx_size(back);
         misses += row.weight * (off * off);
         *energy += row.weight * cplx_norm(r);
     }
     return misses;
 }
 
-/// Re(c x_j).
-static double part_of(const system_rows *rows, cplx c, int j)
-{
-    if (j < 0) return 0;
-    return c.re * rows->x[2 * j] - c.im * rows->x[2 * j + 1];
-}
-
-/// Subtracts w Re(c* …) from the gradient at a sample.
-static void pull_back(const system_rows *rows, cplx c, int j, double miss)
-{
-    if (j < 0) return;
-    rows->gradient[2 * j] -= c.re * miss;
-    rows->gradient[2 * j + 1] += c.im * miss;
-}
-
 /// The least that a row's miss costs: its own weight, or that of moving one of its samples alone.
 static double least_cost(const system_rows *rows, const band_matrix *m, double weight, const stencil *s)
 {
-    const int at[3] = {s->before, s->at, s->after};
     double least = weight;
     for (int i = 0; i < 3; i++) {
         const double on[2] = {s->c[i].re, s->c[i].im};
         for (int part = 0; part < 2; part++) {
-            if (at[i] < 0 || on[part] == 0 || rows->fixed[at[i]] & (part ? FIXED_IM : FIXED_RE)) continue;
-            const double square = on[part] * on[part], others = band_diagonal(m, at[i], part) - weight * square;
+            if (s->at[i] < 0 || on[part] == 0 || rows->fixed[s->at[i]] & (part ? FIXED_IM : FIXED_RE)) continue;
+            const double square = on[part] * on[part],
+                         others = band_block_at(m, s->at[i]).d[2 * part] - weight * square;
             if (others > 0) least = fmin(least, others / square);
         }
     }
@@ -237,29 +214,28 @@ static void add_slopes(const system_rows *rows, const band_matrix *m, row_errors
     for (int r = 0; r < rows->slope_count; r++) {
         const slope_row *slope = &rows->slopes[r];
         const stencil s = system_slope_stencil(rows, slope);
-        const double seen =
-            part_of(rows, s.c[0], s.before) + part_of(rows, s.c[1], s.at) + part_of(rows, s.c[2], s.after);
+        double seen = 0, apart = 0, off = 0, pulled = 0;
+        for (int i = 0; i < 3; i++) { // Re(c x)
+            if (s.at[i] < 0) continue;
+            const twin x = sample_at(rows->x, s.at[i]);
+            seen += s.c[i].re * x[0] - s.c[i].im * x[1];
+        }
         const double miss = seen - slope->target, force = slope->weight * miss;
-        pull_back(rows, s.c[0], s.before, force);
-        pull_back(rows, s.c[1], s.at, force);
-        pull_back(rows, s.c[2], s.after, force);
+        for (int i = 0; i < 3; i++) pull(rows, s.at[i], s.c[i], (cplx){force, 0});
         if (!errors) continue;
-        const twin here = sample_at(rows->x, s.at);
-        double apart = 0, off = 0;
-        if (s.before >= 0 && (slope->behind.re != 0 || slope->behind.im != 0))
-            apart += sqrt(norm(here - sample_at(rows->x, s.before)));
-        if (s.after >= 0 && (slope->ahead.re != 0 || slope->ahead.im != 0))
-            apart += sqrt(norm(sample_at(rows->x, s.after) - here));
+        const twin here = sample_at(rows->x, s.at[1]);
+        if (s.at[0] >= 0 && (slope->behind.re != 0 || slope->behind.im != 0))
+            apart += sqrt(norm(here - sample_at(rows->x, s.at[0])));
+        if (s.at[2] >= 0 && (slope->ahead.re != 0 || slope->ahead.im != 0))
+            apart += sqrt(norm(sample_at(rows->x, s.at[2]) - here));
         off = slope->loss.x * sqrt(norm(here)) + slope->loss.e * apart + slope->target_error;
         if (slope->loss.cut) off += fabs(miss) + fabs(slope->target);
         // as a row that misses its target, or as a pull
         const double miss_by = off * sqrt(least_cost(rows, m, slope->weight, &s));
-        const int at[3] = {s.before, s.at, s.after};
-        double pulled = 0;
         for (int i = 0; i < 3; i++) {
-            if (at[i] < 0) continue;
+            if (s.at[i] < 0) continue;
             const double loss = i == 1 ? slope->loss.x + 2 * slope->loss.e : slope->loss.e,
-                         spread = sqrt(m->spread[2 * at[i]]);
+                         spread = sqrt(m->spread[2 * s.at[i]]);
             errors->pulls += loss * fabs(force) * spread;
             pulled += slope->weight * off * cplx_size(s.c[i]) * spread;
         }
@@ -300,11 +276,8 @@ static void add_start(const system_rows *rows, const band_matrix *m, row_errors 
 
 static void add_pulls(const system_rows *rows)
 {
-    for (int i = 0; rows->pulls && i < rows->pulls->count; i++) {
-        int k = rows->pulls->sample[i] - rows->first;
-        rows->gradient[2 * k] += rows->pulls->pull[i].re;
-        rows->gradient[2 * k + 1] += rows->pulls->pull[i].im;
-    }
+    for (int i = 0; rows->pulls && i < rows->pulls->count; i++)
+        load(rows, rows->pulls->sample[i] - rows->first, rows->pulls->pull[i]);
 }
 
 /// Known values are rounded, and so is each as far as it moves the rows that see it.
@@ -337,6 +310,7 @@ static void add_known(const system_rows *rows, const band_matrix *m, row_errors 
 
 void system_gradient(const system_rows *rows, const band_matrix *m, row_errors *errors)
 {
+    const int last = rows->count - 1;
     double energy, misses;
     if (rows->fast) {
         misses = pull_each(rows, &energy);
@@ -345,29 +319,33 @@ void system_gradient(const system_rows *rows, const band_matrix *m, row_errors *
                      ? rows->is_complex ? pull_jets(rows, true, true, &energy) : pull_jets(rows, true, false, &energy)
                  : rows->is_complex ? pull_jets(rows, false, true, &energy)
                                     : pull_jets(rows, false, false, &energy);
-        adjust(rows);
+        // What the usual adjoint leaves out: the second row of still knots, whose own sample is known, and the tail's row.
+        for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+            if (!(rows->fixed[i] & FIXED_STILL) || (i == last && !rows->loop)) continue;
+            const int after = i < last ? i + 1 : 0;
+            const double weight = system_jet(rows, i).weight;
+            const cplx from = as_cplx(sample_at(rows->x, i)), to = as_cplx(sample_at(rows->x, after));
+            const cplx jet = cplx_scale(weight, cplx_sub(to, from));
+            pull(rows, after, (cplx){1, 0}, cplx_sub(jet, as_cplx(sample_at(rows->jet, i))));
+        }
+        if (!rows->loop && rows->jet_to == last && !(rows->fixed[last] & FIXED_STILL))
+            pull(rows, last, (cplx){1 + rows->tail.re, rows->tail.im}, as_cplx(sample_at(rows->jet, last)));
     }
     if (errors) {
         const double of_weight = 16 * DBL_EPSILON;
         *errors = (row_errors){.misses = misses + rows->drive_error + of_weight * of_weight * energy,
                                .pulls = sqrt(energy * pull_of_jets(rows, m->spread))};
-        if (!rows->loop && rows->jet_to == rows->count - 1) {
-            const jet_row row = system_jet(rows, rows->count - 1);
+        if (!rows->loop && rows->jet_to == last) {
             const double off = rows->tail_loss;
-            errors->misses += row.weight * (off * off) * norm(sample_at(rows->x, rows->count - 1));
+            errors->misses += system_jet(rows, last).weight * (off * off) * norm(sample_at(rows->x, last));
         }
         add_known(rows, m, errors);
     }
     add_pulls(rows);
     add_slopes(rows, m, errors);
     add_start(rows, m, errors);
-    for (int k = 0; k < rows->count && rows->is_complex; k++)
+    for (int k = 0; k <= last && rows->is_complex; k++)
         rows->gradient[2 * k + 1] -= (rows->is_constant ? rows->own_im : rows->im_weight[k]) * rows->x[2 * k + 1];
-}
-
-static void load(const system_rows *rows, int k, cplx by)
-{
-    if (k >= 0) rows->gradient[2 * k] += by.re, rows->gradient[2 * k + 1] += by.im;
 }
 
 void system_right_side(const system_rows *rows, const band_matrix *m)
@@ -378,8 +356,7 @@ void system_right_side(const system_rows *rows, const band_matrix *m)
     for (int r = 0; r < rows->slope_count; r++) {
         const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
         const double force = rows->slopes[r].weight * rows->slopes[r].target;
-        const int at[3] = {s.before, s.at, s.after};
-        for (int i = 0; i < 3; i++) load(rows, at[i], cplx_scale(force, cplx_conj(s.c[i])));
+        for (int i = 0; i < 3; i++) load(rows, s.at[i], cplx_scale(force, cplx_conj(s.c[i])));
     }
     for (int i = rows->jet_from; i <= rows->jet_to && rows->driven; i++) {
         const jet_row row = system_jet(rows, i);

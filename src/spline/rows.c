@@ -1,7 +1,7 @@
 /// The rows of a problem for the band (system.h), sample by sample: the jets of a cubic (eq. 6), of a spring (eq. 14, eq. 17) and of a complex
 /// spline (eq. 22) with their drive (eq. 25), and the slopes (eq. 9).
-#include "spline/problem.h"
 #include "maths/wide.h"
+#include "spline/problem.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -31,18 +31,11 @@ static void set_drive(system_rows *rows, const problem *p, int k, cplx g, double
     rows->drive_error += weight * cplx_norm(g) * (off * off) * (DBL_EPSILON * DBL_EPSILON);
 }
 
-/// h⁴ times the cost of an oscillator's Im x at a sample whose frequency is that much below the highest.
-static double slowness(double natural, double highest, double step)
-{
-    if (!(natural < slow_part * highest)) return 0;
-    double ratio = natural / (slow_part * highest), lack = 1 - ratio * ratio,
-           whole = highest * step * (highest * step);
-    return whole * whole * lack * lack;
-}
+static int intervals_of(const problem *p) { return p->start == WIGGLY_LOOP ? p->count : p->count - 1; }
 
 double problem_im_weight(const problem *p, double natural)
 {
-    double intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, t = intervals * p->desc->step;
+    double intervals = intervals_of(p), t = intervals * p->desc->step;
     double phase2 = natural * t * (natural * t), phase4 = phase2 * phase2, i2 = intervals * intervals;
     return 1 / (i2 * i2 * (1 + phase4 * phase4));
 }
@@ -75,20 +68,16 @@ static double highest_around(const problem *p, int k, int *end)
     return highest;
 }
 
-WIDEST static void im_weights(const double *restrict natural, int count, double t, double part, double unit,
-                              double *restrict weight)
+/// The same of many samples, in the unit of all weights; 0 if Im x costs nothing.
+WIDEST static void set_im_weights(const problem *p, const double *restrict natural, int count, bool weighted,
+                                  double *restrict weight)
 {
+    const double intervals = intervals_of(p), t = intervals * p->desc->step, i2 = intervals * intervals;
+    const double part = i2 * i2, unit = weighted ? p->unit : 0;
     for (int i = 0; i < count; i++) {
         const double phase2 = natural[i] * t * (natural[i] * t), phase4 = phase2 * phase2;
         weight[i] = unit / (part * (1 + phase4 * phase4));
     }
-}
-
-/// problem_im_weight() of many samples, in the unit of all weights; 0 if Im x costs nothing.
-static void set_im_weights(const problem *p, const double *natural, int count, bool weighted, double *weight)
-{
-    const double intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, i2 = intervals * intervals;
-    im_weights(natural, count, intervals * p->desc->step, i2 * i2, weighted ? p->unit : 0, weight);
 }
 
 /// All rows of varying parameters, block by block. Weights are relative to the first sample's |g|⁻².
@@ -130,8 +119,10 @@ static void set_varying(system_rows *rows, const problem *p, bool weighted)
         if (rows->is_complex) set_im_weights(p, block.natural, count, weighted, rows->im_weight + k);
         for (int i = 0; i < count && rows->is_complex && oscillates; i++) {
             if (k + i > end) highest = highest_around(p, k + i, &end);
-            if (block.natural[i] < slow_part * highest)
-                rows->im_weight[k + i] += slowness(block.natural[i], highest, desc->step) * p->unit;
+            if (!(block.natural[i] < slow_part * highest)) continue;
+            const double ratio = block.natural[i] / (slow_part * highest), lack = 1 - ratio * ratio,
+                         whole = highest * desc->step * (highest * desc->step); // the cost times h⁴
+            rows->im_weight[k + i] += whole * whole * lack * lack * p->unit;
         }
     }
 }
@@ -160,15 +151,6 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     for (int k = 0; k < rows->count && rows->driven; k++) set_drive(rows, p, k, rows->own.g, 1);
 }
 
-/// How much a cubic's one-sided speed of the total exceeds the two-sided speed of x and the equilibrium.
-static double bend_beside(const problem *p, int k)
-{
-    int j = p->first + k;
-    if (!p->y || p->about || j == 0 || j + 1 == p->desc->samples) return 0;
-    double bend = 0.5 * ((p->y[j + 1] - p->y[j]) - (p->y[j] - p->y[j - 1]));
-    return k == 0 ? bend : -bend;
-}
-
 /// From which sides an oscillator's speed at a row is seen, or that the free motion determines it.
 typedef struct sides {
     bool ahead, behind, tied;
@@ -193,7 +175,11 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
     if (!from.tied) {
         if (count == 0) return (slope_row){.sample = k};
         row.weight /= 1 + row.weight / (2 * count);
-        if (count == 1) row.target += bend_beside(p, k);
+        const int j = p->first + k;
+        if (count == 1 && p->y && !p->about && j > 0 && j + 1 < desc->samples) { // a cubic's total bends with y
+            const double bend = 0.5 * ((p->y[j + 1] - p->y[j]) - (p->y[j] - p->y[j - 1]));
+            row.target += k == 0 ? bend : -bend;
+        }
     }
     row.weight = fmin(row.weight, STIFFEST) * p->unit;
     row.target_error = 4 * DBL_EPSILON * h * (fabs(slope) + fabs(known));
@@ -256,50 +242,24 @@ bool problem_implies_slope(const problem *p)
     return alone && p->free_end && !(p->settles && p->desc->mode == WIGGLY_COMPLEX);
 }
 
-/// At rest w_0 is 0. The filter's w_1 is, too; the oscillator's costs a jet.
-static void set_rest(wiggly_solver *solver, const problem *p)
+/// What is known of a knot's sample, and its slope. A still knot has two jets, to rest and from rest, each counted twice.
+static void set_knot(system_rows *rows, const problem *p, const wiggly_knot *knot)
 {
-    system_rows *rows = &solver->rows;
-    rows->fixed[0] = FIXED_RE | FIXED_IM;
-    if (problem_oscillates(p)) {
-        rows->jet_from = 0;
-        rows->fixed[0] |= JET_TWICE;
-    } else {
-        rows->fixed[1] = FIXED_RE | FIXED_IM;
-        if (p->y && !p->about) rows->x[2] = p->y[1] - p->level;
+    const int k = knot->sample - p->first;
+    rows->fixed[k] |= FIXED_RE;
+    rows->x[2 * k] = problem_knot_re(p, knot);
+    if (knot->still) rows->fixed[k] |= FIXED_IM | FIXED_STILL;
+    if (knot->still && !(p->settles && knot->sample == p->latest)) { // the tail's is done
+        rows->fixed[k] |= JET_TWICE;
+        if (rows->driven) rows->drive[k] = (cplx){0, 0};
+        if (k == 0) rows->jet_from = 0;
+        if (k == rows->count - 1) rows->jet_to = k;
     }
-}
-
-/// A still knot has two jets, to rest and from rest, each counted twice.
-static void set_still(system_rows *rows, const problem *p, int k)
-{
-    rows->fixed[k] |= FIXED_IM | FIXED_STILL;
-    if (p->settles && p->first + k == p->latest) return; // done by set_tail()
-    rows->fixed[k] |= JET_TWICE;
-    if (rows->driven) rows->drive[k] = (cplx){0, 0};
-    if (k == 0) rows->jet_from = 0;
-    if (k == rows->count - 1) rows->jet_to = k;
-}
-
-/// Slopes, also implied ones, and fixed unknowns.
-static void set_constraints(wiggly_solver *solver, const problem *p)
-{
-    system_rows *rows = &solver->rows;
-    rows->slope_count = 0;
-    if (p->start == WIGGLY_REST) set_rest(solver, p);
-    if (problem_implies_slope(p)) add_slope(rows, p, p->earliest, 0, USUAL_STIFFNESS);
-    for (int n = 0; n < p->desc->knot_count; n++) {
-        const wiggly_knot *knot = &p->desc->knots[solver->order[n]];
-        int k = knot->sample - p->first;
-        rows->fixed[k] |= FIXED_RE;
-        rows->x[2 * k] = problem_knot_re(p, knot);
-        if (knot->still) set_still(rows, p, k);
-        if (rows->is_complex && knot->has_phase) {
-            rows->fixed[k] |= FIXED_IM;
-            rows->x[2 * k + 1] = problem_knot_im(p, knot);
-        }
-        if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot_stiffness(knot));
+    if (rows->is_complex && knot->has_phase) {
+        rows->fixed[k] |= FIXED_IM;
+        rows->x[2 * k + 1] = problem_knot_im(p, knot);
     }
+    if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot_stiffness(knot));
 }
 
 /// The last knot's jet, counted twice, with the free motion after it.
@@ -360,7 +320,19 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     memset(rows->fixed, rows->is_complex ? 0 : FIXED_IM, (size_t)rows->count);
     set_filter(solver, p);
     set_tail(rows, p);
-    set_constraints(solver, p);
+    rows->slope_count = 0;
+    if (p->start == WIGGLY_REST) { // w_0 is 0, and the filter's w_1, too; the oscillator's costs a jet
+        rows->fixed[0] = FIXED_RE | FIXED_IM;
+        if (problem_oscillates(p)) {
+            rows->jet_from = 0;
+            rows->fixed[0] |= JET_TWICE;
+        } else {
+            rows->fixed[1] = FIXED_RE | FIXED_IM;
+            if (p->y && !p->about) rows->x[2] = p->y[1] - p->level;
+        }
+    }
+    if (problem_implies_slope(p)) add_slope(rows, p, p->earliest, 0, USUAL_STIFFNESS);
+    for (int n = 0; n < p->desc->knot_count; n++) set_knot(rows, p, &p->desc->knots[solver->order[n]]);
     rows->response = problem_response_error(p);
     rows->unknown = rows->unknown || !(p->response.error < INFINITY);
     const bool slips = p->thorough && rows->response > 0 && p->still < 0; // a still knot holds w, and not the total

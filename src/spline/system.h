@@ -65,9 +65,9 @@ typedef struct system_rows {
     double *jet;               ///< scratch, 2M
 } system_rows;
 
-/// A row's coefficients on the existing ones of the samples j − 1, j and j + 1: `before` and `after` are their numbers or -1.
+/// A row's coefficients on the samples j − 1, j and j + 1: `at` are their numbers, -1 if there is none.
 typedef struct stencil {
-    int before, at, after;
+    int at[3];
     cplx c[3];
 } stencil;
 
@@ -88,6 +88,13 @@ static inline int system_beside(const system_rows *rows, int k, int by)
     const int n = rows->count, at = k + by;
     if (at >= 0 && at < n) return at;
     return rows->loop ? (at + n) % n : -1;
+}
+
+/// A start's row on x_0 and x_1: the coefficient on x_0.
+static inline cplx system_start_on_x(const system_rows *rows, const struct start_row *row)
+{
+    if (rows->count > 1) return cplx_sub(row->on_x, row->on_e);
+    return cplx_add(row->on_x, cplx_mul(row->on_e, rows->tail));
 }
 
 /// A row's m and p.
