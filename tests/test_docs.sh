@@ -253,7 +253,7 @@ docs/scene-format.md~axis "side", lag 6.5 and gain 5~saved~"axis": "side", "lag"
 docs/scene-format.md~2 to 32 places~src/scene/rig.h~RAMP_MAX_POINTS = 32, ///< and at least 2
 docs/scene-format.md~Up to four coordinates~src/scene/rig.h~MODEL_MAX_DRIVES = 4
 docs/mathematics.md~at most 1e−9 (cubic) or 1e−8 (other modes)~tests/spline/test_vectors.c~WIGGLY_CUBIC ? 1e-9 : 1e-8
-docs/mathematics.md~exceeds 10⁴ times~src/spline/complete.c~blow_up = 1e4
+docs/mathematics.md~exceeds 10⁴ times~src/spline/spline.c~implausible = 1e4
 docs/mathematics.md~again with c = 0.05~src/spline/problem.h~FALLBACK_CALM 0.05
 docs/mathematics.md~at least 0.05·c~src/spline/poles.h~LEAST_DAMPING 0.05
 docs/mathematics.md~\ge 10^{-4}~src/spline/pins.c~out_of_reach = 1e-4, firm = 0.04

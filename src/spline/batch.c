@@ -310,12 +310,10 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
 
 wiggly_status wiggly_batch_solve_many(wiggly_batch *batch, const wiggly_desc *desc, const wiggly_many *many)
 {
-    enum { FIRST = sizeof(wiggly_many) }; // its size in version 1.0
-    wiggly_many own = {0};
     wiggly_desc read;
     if (!batch || !many) return WIGGLY_ERROR_ARGUMENT;
-    if (!size_fits(many, FIRST, sizeof own)) return WIGGLY_ERROR_SIZE;
-    memcpy(&own, many, many->size < sizeof own ? many->size : sizeof own);
+    if (!size_fits(many, sizeof *many)) return WIGGLY_ERROR_SIZE;
+    const wiggly_many own = *many;
     if (own.count < 0 || own.knot_count < 0) return WIGGLY_ERROR_ARGUMENT;
     if (own.count > 0 && own.knot_count > 0 && !(own.sample.at && own.value.at)) return WIGGLY_ERROR_ARGUMENT;
     wiggly_status status = desc_read(desc, &read);

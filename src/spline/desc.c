@@ -40,35 +40,29 @@ wiggly_desc desc_settings(const wiggly_desc *desc)
 _Static_assert(offsetof(wiggly_desc, variation_seed) + sizeof(int) == sizeof(wiggly_desc), "padding at the end");
 _Static_assert(offsetof(wiggly_curve, knot) + sizeof(int) == sizeof(wiggly_curve), "padding at the end");
 
-/// The structures' sizes in version 1.0. Later members lie beyond.
-enum { FIRST_DESC = sizeof(wiggly_desc), FIRST_CURVE = sizeof(wiggly_curve), WIDEST_SIZE = 4096 };
+enum { WIDEST_SIZE = 4096 };
 
-bool size_fits(const void *of, size_t first, size_t own)
+bool size_fits(const void *of, size_t own)
 {
     const unsigned char *bytes = of;
     size_t size;
     memcpy(&size, of, sizeof size);
-    if (size < first || size > WIDEST_SIZE) return false;
+    if (size < own || size > WIDEST_SIZE) return false;
     for (size_t i = own; i < size; i++) {
         if (bytes[i]) return false;
     }
     return true;
 }
 
-bool desc_fits(const wiggly_desc *desc) { return size_fits(desc, FIRST_DESC, sizeof *desc); }
+bool desc_fits(const wiggly_desc *desc) { return size_fits(desc, sizeof *desc); }
 
-bool curve_fits(const wiggly_curve *curve) { return curve->size >= FIRST_CURVE && curve->size <= WIDEST_SIZE; }
+bool curve_fits(const wiggly_curve *curve) { return curve->size >= sizeof *curve && curve->size <= WIDEST_SIZE; }
 
 wiggly_status desc_read(const wiggly_desc *from, wiggly_desc *to)
 {
     if (!from) return WIGGLY_ERROR_ARGUMENT;
     if (!desc_fits(from)) return WIGGLY_ERROR_SIZE;
-    if (from->size >= sizeof *to) {
-        *to = *from; // fast, because the size is known
-    } else {
-        memset(to, 0, sizeof *to);
-        memcpy(to, from, from->size);
-    }
+    *to = *from;
     if ((to->has_low && !isfinite(to->low)) || (to->has_high && !isfinite(to->high))) return WIGGLY_ERROR_LIMITS;
     if (to->step == 0) to->step = 1.0 / 24;
     if (to->calm == 0 && !to->has_calm) to->calm = 1;

@@ -26,8 +26,9 @@ extern const desc_member desc_members[];
 /// WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_SIZE, WIGGLY_ERROR_LIMITS.
 wiggly_status desc_read(const wiggly_desc *from, wiggly_desc *to);
 
-/// Whether a structure that begins with its size has at least version 1.0's members, and no value beyond its `own` size.
-bool size_fits(const void *of, size_t first, size_t own);
+/// Whether a structure that begins with its size has all members, and no value beyond its `own` size. A version that adds members must still
+/// take those of version 1.0, which end here.
+bool size_fits(const void *of, size_t own);
 bool desc_fits(const wiggly_desc *desc);
 bool curve_fits(const wiggly_curve *curve);
 
@@ -48,11 +49,5 @@ wiggly_desc desc_settings(const wiggly_desc *desc);
 
 /// Whether both have the same filter, if no pole parameter has a track.
 bool desc_same_filter(const wiggly_desc *a, const wiggly_desc *b);
-
-/// A member that is a parameter.
-static inline const wiggly_param *desc_param(const wiggly_desc *desc, const desc_member *member)
-{
-    return (const wiggly_param *)(const void *)((const char *)desc + member->offset);
-}
 
 #endif

@@ -1,8 +1,8 @@
 /// The frequency and damping that explain knots best (docs/mathematics.md, Frequency).
 #include "maths/maths.h"
+#include "maths/symmetric.h"
 #include "spline/host.h"
 #include "spline/problem.h"
-#include "maths/symmetric.h"
 #include <math.h>
 #include <string.h>
 

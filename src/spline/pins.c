@@ -7,11 +7,11 @@
 //
 // and every spline is solved once more under the pulls R_sᵀ λ / w_s. Rows are the combinations of a sample's pins that can be reached: the
 // eigenvectors of B°B°ᵀ, where B is how far each spline's Re x and Im x move the pins. A bound is one row more, whose λ is not below 0.
+#include "maths/symmetric.h"
+#include "maths/wide.h"
 #include "spline/bound_tail.h"
 #include "spline/host.h"
 #include "spline/one_sided.h"
-#include "maths/symmetric.h"
-#include "maths/wide.h"
 #include <float.h>
 #include <limits.h>
 #include <math.h>

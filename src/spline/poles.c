@@ -1,9 +1,9 @@
 /// Poles, coefficients and cost of the start from parameters: for one sample, and for a block.
 #include "spline/poles.h"
 #include "maths/maths.h"
+#include "maths/wide.h"
 #include "spline/desc.h"
 #include "spline/host.h"
-#include "maths/wide.h"
 #include <float.h>
 #include <math.h>
 #include <stdint.h>

@@ -1,8 +1,8 @@
 /// Sets up the problem from a description (docs/mathematics.md, Constraints): checks it, brings its values to a safe size, and finds where the
 /// domain starts and ends, the level that knots are measured from, and the cost of the start.
 #include "maths/maths.h"
-#include "spline/problem.h"
 #include "maths/wide.h"
+#include "spline/problem.h"
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
@@ -38,7 +38,7 @@ static wiggly_status check_settings(const wiggly_desc *desc, bool *y_is_safe)
         return WIGGLY_ERROR_NUMBER;
     for (const desc_member *m = desc_members; m->name; m++) {
         if (m->kind != DESC_PARAM) continue;
-        const wiggly_param *param = desc_param(desc, m);
+        const wiggly_param *param = (const wiggly_param *)(const void *)((const char *)desc + m->offset);
         const bool is_y = param == &desc->equilibrium;
         if (!param_is_within(*param, desc->samples, is_y ? LARGEST_VALUE : DBL_MAX)) return WIGGLY_ERROR_NUMBER;
         if (is_y) *y_is_safe = param_is_within(*param, desc->samples, SAFE_VALUE);
@@ -221,7 +221,7 @@ static void set_start(wiggly_solver *solver, problem *p)
         const poles at = poles_at(desc, p->first, problem_least_damping(p));
         p->unit = maths_exp(-poles_weight_exponent(&at, desc->step));
     }
-    p->free_end = p->start == WIGGLY_FREE && !problem_starts_still(p);
+    p->free_end = p->start == WIGGLY_FREE && !(p->still >= 0 && p->still == p->first); // a still knot: at rest before
     if (!p->free_end || p->latest < 0) return;
     if (is_constant) {
         p->cost = problem_filter(solver, p)->start;

@@ -75,9 +75,6 @@ static inline bool problem_is_whole(const problem *p, const wiggly_knot *knot)
     return p->desc->mode == WIGGLY_COMPLEX && (knot->has_phase || knot->still);
 }
 
-/// Whether the first sample has a still knot: it is at rest before.
-static inline bool problem_starts_still(const problem *p) { return p->still >= 0 && p->still == p->first; }
-
 /// Rows of the system: the samples that are solved for.
 static inline int problem_rows(const problem *p) { return p->settles ? p->latest - p->first + 1 : p->count; }
 
@@ -202,11 +199,5 @@ void problem_fill(double *x, double value, int count);
 
 /// The largest magnitude.
 static inline double extent_size(extent e) { return fmax(fabs(e.low), fabs(e.high)); }
-
-/// Whether max |x| is implausible for the knots.
-bool problem_blew_up(const problem *p, const wiggly_curve *curve);
-
-/// Computes the rest from x: samples outside the system, the total, the equilibrium, the band's centre.
-void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve);
 
 #endif

@@ -23,94 +23,61 @@ void *arena_take(arena *a, size_t count, size_t size)
 
 enum { LINE = 64, POWER_COLUMNS = 8 }; ///< LINE: size of a cache line, to which columns are aligned
 
-/// Arrays of `samples` numbers. The factor comes first: the chain's tables share its memory, and are larger for few samples. A loop's
-/// response to a moving equilibrium is found before all that is in im_weight and the arrays after it.
-static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
-{
-    system_rows *rows = &at->rows;
-    band_matrix *m = &at->band;
-    limit_memory *l = &at->limits;
-    const struct {
-        double **array;
-        size_t each;
-    } arrays[] = {{&m->record, BAND_RECORD},
-                  {&m->seam, BAND_SEAM},
-                  {NULL, 1}, // see below
-                  {&m->spread, 2},
-                  {&m->d, 1},
-                  {&m->e_re, 1},
-                  {&m->e_im, 1},
-                  {&m->f_re, 1},
-                  {&m->f_im, 1},
-                  {&rows->m_re, 1},
-                  {&rows->m_im, 1},
-                  {&rows->p_re, 1},
-                  {&rows->p_im, 1},
-                  {&rows->loss_m, 1},
-                  {&rows->loss_p, 1},
-                  {&rows->jet_weight, 1},
-                  {&at->y, 1},
-                  {&at->re, 1},
-                  {&at->im, 1},
-                  {&at->offset, 1},
-                  {&at->response.total, 1},
-                  {&at->response.im, 1},
-                  {&at->response.speed, 1},
-                  {&rows->im_weight, 1}, // RESPONSE_ROOM from here on
-                  {&rows->x, 2},
-                  {&rows->gradient, 2},
-                  {&rows->jet, 2},
-                  {&l->pull, 1},
-                  {&l->spare, 1},
-                  {&l->free[0], 1},
-                  {&l->free[1], 1},
-                  {&l->pushed[0], 1},
-                  {&l->pushed[1], 1},
-                  {&l->stiffness, 1},
-                  {&l->by_push, 2},
-                  {&l->search, 4}};
-    chain_powers *t = &at->chain.powers;
-    double **const powers[POWER_COLUMNS] = {&t->p_re,   &t->p_im,   &t->q_re, &t->q_im,
-                                            &t->w01_re, &t->w01_im, &t->w00,  &t->w11};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        if (arrays[i].array) {
-            *arrays[i].array = arena_take(a, samples, arrays[i].each * sizeof(double));
-        } else {
-            arena_take(a, POWER_COLUMNS + 1, LINE); // the chain's columns begin on lines
-        }
-    }
-    at->response.room = rows->im_weight;
-    unsigned char *column = (unsigned char *)m->record;
-    for (int i = 0; i < POWER_COLUMNS && column; i++) {
-        column += (LINE - (uintptr_t)column % LINE) % LINE;
-        *powers[i] = (double *)(void *)column;
-        column += samples * sizeof(double);
-    }
-}
-
 static wiggly_solver *lay_out(arena *a, int samples, int knots)
 {
     wiggly_solver measured = {0}, *solver = arena_take(a, 1, sizeof *solver), *at = solver ? solver : &measured;
     const size_t n = (size_t)samples, k = (size_t)knots + 1;
     system_rows *rows = &at->rows;
+    band_matrix *m = &at->band;
+    limit_memory *l = &at->limits;
+    forced_response *u = &at->response;
     chain *c = &at->chain;
     at->samples = samples;
     at->knots = knots;
     at->longest_squared = INT_MAX;
-    lay_out_numbers(at, a, n);
+
+    // The factor comes first: the chain's tables share its memory, and are larger for few samples.
+    m->record = arena_take(a, n, BAND_RECORD * sizeof(double));
+    m->seam = arena_take(a, n, BAND_SEAM * sizeof(double));
+    arena_take(a, POWER_COLUMNS + 1, LINE); // the chain's columns begin on lines
+    unsigned char *column = (unsigned char *)m->record;
+    chain_powers *t = &c->powers;
+    double **const powers[POWER_COLUMNS] = {&t->p_re,   &t->p_im,   &t->q_re, &t->q_im,
+                                            &t->w01_re, &t->w01_im, &t->w00,  &t->w11};
+    for (int i = 0; i < POWER_COLUMNS && column; i++) {
+        column += (LINE - (uintptr_t)column % LINE) % LINE;
+        *powers[i] = (double *)(void *)column;
+        column += n * sizeof(double);
+    }
+
+    // A loop's response to a moving equilibrium is found before all that is in these last arrays: they have its room.
+    double **const single[] = {&m->d,         &m->e_re,          &m->e_im,    &m->f_re,    &m->f_im,
+                               &rows->m_re,   &rows->m_im,       &rows->p_re, &rows->p_im, &rows->loss_m,
+                               &rows->loss_p, &rows->jet_weight, &at->y,      &at->re,     &at->im,
+                               &at->offset,   &u->total,         &u->im,      &u->speed};
+    double **const last[] = {&rows->im_weight, &l->pull,      &l->spare,     &l->free[0],
+                             &l->free[1],      &l->pushed[0], &l->pushed[1], &l->stiffness};
+    double **const pairs[] = {&rows->x, &rows->gradient, &rows->jet, &l->by_push};
+    m->spread = arena_take(a, n, 2 * sizeof(double));
+    for (size_t i = 0; i < sizeof single / sizeof *single; i++) *single[i] = arena_take(a, n, sizeof(double));
+    for (size_t i = 0; i < sizeof last / sizeof *last; i++) *last[i] = arena_take(a, n, sizeof(double));
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) *pairs[i] = arena_take(a, n, 2 * sizeof(double));
+    l->search = arena_take(a, n, 4 * sizeof(double));
+    u->room = rows->im_weight;
+
     rows->rest = arena_take(a, n, sizeof *rows->rest);
-    at->band.own = arena_take(a, n, sizeof *at->band.own);
-    at->band.kept_own = arena_take(a, n, sizeof *at->band.kept_own);
-    at->band.kept_marks = arena_take(a, n, sizeof *at->band.kept_marks);
+    m->own = arena_take(a, n, sizeof *m->own);
+    m->kept_own = arena_take(a, n, sizeof *m->kept_own);
+    m->kept_marks = arena_take(a, n, sizeof *m->kept_marks);
     rows->drive = arena_take(a, n, sizeof *rows->drive);
     rows->slopes = arena_take(a, k, sizeof *rows->slopes);
     rows->fixed = arena_take(a, n, sizeof *rows->fixed);
     c->stretches = arena_take(a, k, sizeof *c->stretches);
     c->nodes = arena_take(a, k, sizeof *c->nodes);
     c->rows = arena_take(a, k, sizeof *c->rows);
-    at->limits.own = arena_take(a, k, sizeof *at->limits.own);
-    at->limits.all = arena_take(a, k, sizeof *at->limits.all);
-    at->limits.held = arena_take(a, n, sizeof *at->limits.held);
+    l->own = arena_take(a, k, sizeof *l->own);
+    l->all = arena_take(a, k, sizeof *l->all);
+    l->held = arena_take(a, n, sizeof *l->held);
     at->wind.gap = arena_take(a, k, sizeof *at->wind.gap);
     at->wind.push = arena_take(a, n, sizeof *at->wind.push);
     at->filled = arena_take(a, k, sizeof *at->filled);
