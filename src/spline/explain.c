@@ -48,15 +48,6 @@ static sight sight_of(const wiggly_desc *desc)
     return s;
 }
 
-/// Correlation of values this far apart in time: noise through the filter without bandwidth.
-static double kinship(const sight *s, double decay, double turn, double apart)
-{
-    double t = fabs(apart), fading = maths_exp(-decay * t);
-    const maths_point at = maths_turn(turn * t);
-    if (s->is_real) return fading * (at.cos + decay / turn * at.sin);
-    return fading * (1 + decay * t) * at.cos;
-}
-
 /// m/2 log vᵀK⁻¹v + ½ log|K|; infinite if K is numerically singular, or v is 0.
 static double cost_of(const sight *s, double frequency, double damping)
 {
@@ -68,7 +59,12 @@ static double cost_of(const sight *s, double frequency, double damping)
     for (int i = 0; i < n; i++) {
         for (int j = 0; j <= i; j++) {
             const double apart = s->time[i] - s->time[j], age = s->time[i] + s->time[j] - 2 * s->time[0];
-            k[n * i + j] = kinship(s, decay, turn, apart) + pluck * maths_exp(-decay * age) * maths_cos(turn * apart);
+            // The correlation of values this far apart: noise through the filter without bandwidth.
+            const double fading = maths_exp(-decay * apart);
+            const maths_point at = maths_turn(turn * apart);
+            const double kinship =
+                s->is_real ? fading * (at.cos + decay / turn * at.sin) : fading * (1 + decay * apart) * at.cos;
+            k[n * i + j] = kinship + pluck * maths_exp(-decay * age) * at.cos;
         }
         k[n * i + i] += missed * missed;
     }

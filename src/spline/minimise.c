@@ -130,28 +130,3 @@ minimum solver_minimise(wiggly_solver *solver)
     if (!orthogonal_factor(rows, m)) return (minimum){0};
     return solver_find(solver);
 }
-
-void solver_run_forward(wiggly_solver *solver, int from)
-{
-    system_rows *rows = &solver->rows;
-    // x is a double sum of small steps; what a sum loses is carried along, or N² additions would show (Kahan)
-    const double *before = rows->x + 2 * (from - 1);
-    double x[2] = {before[2], before[3]}, step[2] = {before[2] - before[0], before[3] - before[1]};
-    double lost_x[2] = {0}, lost_step[2] = {0};
-    for (int i = from; i < rows->count - 1; i++) {
-        const coefficients at = system_coefficients(rows, i);
-        const cplx drive = rows->driven ? rows->drive[i] : (cplx){0, 0};
-        const cplx e = {step[0], step[1]}, behind = {x[0] - e.re, x[1] - e.im};
-        const cplx more = cplx_sub(cplx_sub(cplx_mul(at.m, e), cplx_mul(at.p, behind)), drive);
-        const double by[2] = {more.re, more.im};
-        for (int part = 0; part < 2; part++) {
-            const double a = by[part] - lost_step[part], moved = step[part] + a;
-            lost_step[part] = (moved - step[part]) - a;
-            step[part] = moved;
-            const double b = (step[part] - lost_x[part]) - lost_step[part], sum = x[part] + b;
-            lost_x[part] = (sum - x[part]) - b;
-            x[part] = sum;
-            rows->x[2 * i + 2 + part] = x[part];
-        }
-    }
-}

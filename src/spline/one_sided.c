@@ -12,6 +12,7 @@
 // These are then solved as equalities. If a push turns out to be a pull, or a free value exceeds a limit, the steps stopped too early, and
 // everything is repeated to a smaller μ. So it ends with the answer, or with the certainty that it has none.
 #include "spline/one_sided.h"
+#include "maths/maths.h"
 #include "maths/wide.h"
 #include <math.h>
 #include <string.h>
@@ -33,18 +34,6 @@ static const double balanced = 1e-3; ///< share of the initial error in S⁻¹ d
 static inline double aim_of(double mean, double second, double is_open)
 {
     return is_open * (mean - second) + (1 - is_open);
-}
-
-/// Σ x, in lanes.
-WIDEST static double sum_of(const double *x, int count)
-{
-    double sum[LANES] = {0}, all = 0;
-    for (int i = 0; i < count; i += LANES) {
-        const int lanes = count - i < LANES ? count - i : LANES;
-        for (int n = 0; n < lanes; n++) sum[n] += x[i + n];
-    }
-    for (int n = 0; n < LANES; n++) all += sum[n];
-    return all;
 }
 
 /// S⁻¹ + Σ q/g.
@@ -114,20 +103,20 @@ WIDEST static double find_second(const one_sided *o, const one_sided_limit *s)
                            *restrict is_open = o->is_open;
     double *restrict second = s->by_push;
     for (int i = 0; i < o->count; i++) second[i] = is_open[i] * (by_gap[i] * second[i] * gap[i] * push[i]);
-    return sum_of(second, o->count);
+    return maths_dot(second, is_open, o->count);
 }
 
 /// Takes a share of the step; returns Σ gap · push.
 WIDEST static double advance(const one_sided *o, const one_sided_limit *s)
 {
     const double *restrict by_gap = s->by_gap, *restrict by_push = s->by_push, *restrict is_open = o->is_open;
-    double *restrict gap = s->gap, *restrict push = s->push, *restrict product = o->move;
+    double *restrict gap = s->gap, *restrict push = s->push, *restrict product = o->move; // the move is done
     const double way = o->way;
     for (int i = 0; i < o->count; i++) {
         gap[i] += way * by_gap[i] * gap[i], push[i] += way * by_push[i] * push[i];
-        product[i] = is_open[i] * (gap[i] * push[i]);
+        product[i] = is_open[i] * gap[i];
     }
-    return sum_of(product, o->count);
+    return maths_dot(product, push, o->count);
 }
 
 /// Whether no gap and push fell too similarly to decide which of them stays.

@@ -53,13 +53,6 @@ static inline dd dd_multiply(dd a, dd b)
     return dd_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
-static inline uint64_t bits_of(double x)
-{
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
 static const double pi = 3.14159265358979323846;
 
 /// Larger numbers make no difference (λ has long been 0), and products of two stay finite.
@@ -142,7 +135,7 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
 WIDEST static int64_t largest_bits(const double *x, int count)
 {
     int64_t most = 0;
-    for (int i = 0; i < count; i++) most = (int64_t)bits_of(x[i]) > most ? (int64_t)bits_of(x[i]) : most;
+    for (int i = 0; i < count; i++) most = (int64_t)maths_bits(x[i]) > most ? (int64_t)maths_bits(x[i]) : most;
     return most;
 }
 
@@ -152,7 +145,7 @@ int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural)
     int fastest = from;
     if (track && from < to) {
         const int64_t most = largest_bits(track + from, to - from + 1);
-        while (most > 0 && (int64_t)bits_of(track[fastest]) != most) fastest++;
+        while (most > 0 && (int64_t)maths_bits(track[fastest]) != most) fastest++;
     }
     if (natural) *natural = poles_at(desc, fastest, 0).natural;
     return fastest;
@@ -363,13 +356,6 @@ static const double largest_angle = 1e4, largest_exponent = 600, largest_half = 
 /// Adding it rounds to an integer, which is then in the lowest bits.
 #define ROUNDER 0x1.8p52
 
-static inline double double_of(uint64_t bits)
-{
-    double x;
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
 /// eˣ = scale (1 + grown): x = n ln 2 + r, scale 2ⁿ, Taylor's series of r to the last digit.
 static inline double grown_near(double x, double *scale)
 {
@@ -387,15 +373,8 @@ static inline double grown_near(double x, double *scale)
     s = s * r + 1.0 / 24;
     s = s * r + 1.0 / 6;
     s = s * r + 0.5;
-    *scale = double_of((bits_of(shifted) + 1023) << 52);
+    *scale = maths_from_bits((maths_bits(shifted) + 1023) << 52);
     return r + r * r * s;
-}
-
-static inline double expm1_near(double x)
-{
-    double scale;
-    const double grown = grown_near(x, &scale);
-    return scale * grown + (scale - 1);
 }
 
 static inline double exp_near(double x)
@@ -425,10 +404,10 @@ static inline void sine_cosine(double x, double *sine, double *cosine)
     c = c * z - 1.0 / 720;
     c = c * z + 1.0 / 24;
     const double of_sine = r + r * z * s, of_cosine = (1 - 0.5 * z) + z * z * c;
-    const uint64_t quarter = bits_of(shifted);
+    const uint64_t quarter = maths_bits(shifted);
     const double first = quarter & 1 ? of_cosine : of_sine, second = quarter & 1 ? of_sine : of_cosine;
-    *sine = double_of(bits_of(first) ^ (quarter & 2) << 62);
-    *cosine = double_of(bits_of(second) ^ ((quarter + 1) & 2) << 62);
+    *sine = maths_from_bits(maths_bits(first) ^ (quarter & 2) << 62);
+    *cosine = maths_from_bits(maths_bits(second) ^ ((quarter + 1) & 2) << 62);
 }
 
 /// Both poles times h: real parts, and half angles.
@@ -481,8 +460,11 @@ static inline void to_coefficients(const exponents *restrict e, int count, bool 
     for (int i = 0; i < count; i++) {
         double mu_re[2], mu_im[2], grown = 0;
         for (int k = 0; k < 2; k++) {
-            double s, c;
-            if (k == 0 || !alike) grown = expm1_near(e->real[k][i]);
+            double s, c, scale;
+            if (k == 0 || !alike) {
+                const double near = grown_near(e->real[k][i], &scale);
+                grown = scale * near + (scale - 1); // expm1
+            }
             sine_cosine(e->half[k][i], &s, &c);
             mu_re[k] = grown - 2 * (1 + grown) * (s * s);
             mu_im[k] = 2 * (1 + grown) * (s * c);
@@ -495,29 +477,12 @@ static inline void to_coefficients(const exponents *restrict e, int count, bool 
     }
 }
 
-WIDEST static void set_coefficients(const exponents *restrict e, int count, poles_block *restrict block)
+WIDEST static void set_coefficients(const exponents *restrict e, int count, bool alike, poles_block *restrict block)
 {
-    to_coefficients(e, count, false, block);
-}
-
-WIDEST static void set_alike_coefficients(const exponents *restrict e, int count, poles_block *restrict block)
-{
-    to_coefficients(e, count, true, block);
-}
-
-/// Samples beyond the polynomials' range, one by one.
-static void fill_each(const wiggly_desc *desc, int from, int count, double floor, poles_block *block)
-{
-    for (int i = 0; i < count; i++) {
-        poles at = poles_at(desc, from + i, floor);
-        coefficients c = poles_coefficients(&at, desc->step);
-        block->natural[i] = at.natural;
-        block->centre[i] = at.centre;
-        block->exponent[i] = poles_weight_exponent(&at, desc->step);
-        const coefficient_loss loss = poles_loss(&at, desc->step, desc->mode == WIGGLY_REAL);
-        block->m_re[i] = c.m.re, block->m_im[i] = c.m.im;
-        block->p_re[i] = c.p.re, block->p_im[i] = c.p.im;
-        block->loss_m[i] = loss.m, block->loss_p[i] = loss.p;
+    if (alike) { // loops of their own
+        to_coefficients(e, count, true, block);
+    } else {
+        to_coefficients(e, count, false, block);
     }
 }
 
@@ -563,17 +528,23 @@ void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor
 {
     exponents e;
     set_exponents(desc, from, count, floor, block, &e);
-    if (!is_within_reach(&e, count)) {
-        fill_each(desc, from, count, floor, block);
+    if (is_within_reach(&e, count)) {
+        set_coefficients(&e, count, desc->mode == WIGGLY_COMPLEX, block);
+        for (int i = 0; i < count; i++)
+            block->exponent[i] = block->exponent[i] < HEAVIEST ? block->exponent[i] : HEAVIEST;
         return;
     }
-    if (desc->mode == WIGGLY_COMPLEX) {
-        set_alike_coefficients(&e, count, block);
-    } else {
-        set_coefficients(&e, count, block);
+    for (int i = 0; i < count; i++) { // one by one
+        const poles at = poles_at(desc, from + i, floor);
+        const coefficients c = poles_coefficients(&at, desc->step);
+        const coefficient_loss loss = poles_loss(&at, desc->step, desc->mode == WIGGLY_REAL);
+        block->natural[i] = at.natural;
+        block->centre[i] = at.centre;
+        block->exponent[i] = poles_weight_exponent(&at, desc->step);
+        block->m_re[i] = c.m.re, block->m_im[i] = c.m.im;
+        block->p_re[i] = c.p.re, block->p_im[i] = c.p.im;
+        block->loss_m[i] = loss.m, block->loss_p[i] = loss.p;
     }
-    for (int i = 0; i < count; i++)
-        block->exponent[i] = block->exponent[i] < HEAVIEST ? block->exponent[i] : HEAVIEST;
 }
 
 WIDEST void poles_block_exp(const double *restrict x, int count, double *restrict out)

@@ -26,26 +26,6 @@ static bool param_is_within(wiggly_param param, int samples, double limit)
     return param.track ? are_within(param.track, samples, limit) : fabs(param.value) <= limit;
 }
 
-static wiggly_status check_settings(const wiggly_desc *desc, bool *y_is_safe)
-{
-    if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
-    if (!(desc->step > 0 && desc->step < INFINITY) || !(desc->calm >= 0 && desc->calm <= 1) ||
-        !(desc->variation >= 0 && desc->variation < INFINITY) ||
-        !(desc->wind_up >= 0 && desc->wind_up <= longest_wind_up))
-        return WIGGLY_ERROR_NUMBER;
-    if ((unsigned)desc->mode > WIGGLY_CUBIC || (unsigned)desc->start > WIGGLY_LOOP ||
-        (unsigned)desc->passive > WIGGLY_FILTER)
-        return WIGGLY_ERROR_NUMBER;
-    for (const desc_member *m = desc_members; m->name; m++) {
-        if (m->kind != DESC_PARAM) continue;
-        const wiggly_param *param = (const wiggly_param *)(const void *)((const char *)desc + m->offset);
-        const bool is_y = param == &desc->equilibrium;
-        if (!param_is_within(*param, desc->samples, is_y ? LARGEST_VALUE : DBL_MAX)) return WIGGLY_ERROR_NUMBER;
-        if (is_y) *y_is_safe = param_is_within(*param, desc->samples, SAFE_VALUE);
-    }
-    return desc->low < desc->high ? WIGGLY_OK : WIGGLY_ERROR_LIMITS;
-}
-
 static wiggly_status check_knot(const wiggly_desc *desc, const wiggly_knot *knot)
 {
     const int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
@@ -62,12 +42,29 @@ wiggly_status desc_check(const wiggly_desc *desc, int *knot, bool *y_is_safe)
     *knot = -1;
     if (desc->samples < 0 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
         return WIGGLY_ERROR_ARGUMENT;
-    wiggly_status status = check_settings(desc, y_is_safe);
-    for (int k = 0; k < desc->knot_count && status == WIGGLY_OK; k++) {
-        status = check_knot(desc, &desc->knots[k]);
-        if (status != WIGGLY_OK) *knot = k;
+    if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
+    if (!(desc->step > 0 && desc->step < INFINITY) || !(desc->calm >= 0 && desc->calm <= 1) ||
+        !(desc->variation >= 0 && desc->variation < INFINITY) ||
+        !(desc->wind_up >= 0 && desc->wind_up <= longest_wind_up))
+        return WIGGLY_ERROR_NUMBER;
+    if ((unsigned)desc->mode > WIGGLY_CUBIC || (unsigned)desc->start > WIGGLY_LOOP ||
+        (unsigned)desc->passive > WIGGLY_FILTER)
+        return WIGGLY_ERROR_NUMBER;
+    for (const desc_member *m = desc_members; m->name; m++) {
+        if (m->kind != DESC_PARAM) continue;
+        const wiggly_param *param = (const wiggly_param *)(const void *)((const char *)desc + m->offset);
+        const bool is_y = param == &desc->equilibrium;
+        if (!param_is_within(*param, desc->samples, is_y ? LARGEST_VALUE : DBL_MAX)) return WIGGLY_ERROR_NUMBER;
+        if (is_y) *y_is_safe = param_is_within(*param, desc->samples, SAFE_VALUE);
     }
-    return status;
+    if (!(desc->low < desc->high)) return WIGGLY_ERROR_LIMITS;
+    for (int k = 0; k < desc->knot_count; k++) {
+        const wiggly_status status = check_knot(desc, &desc->knots[k]);
+        if (status == WIGGLY_OK) continue;
+        *knot = k;
+        return status;
+    }
+    return WIGGLY_OK;
 }
 
 wiggly_status problem_check(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
@@ -155,6 +152,31 @@ void scale_values(wiggly_solver *solver, double scale, wiggly_desc *desc)
 }
 
 // --- the rules of start and end ---------------------------------------------------------------------------------------
+
+const constant_filter *problem_filter(wiggly_solver *solver, const problem *p)
+{
+    const wiggly_desc *desc = p->desc;
+    const double floor = problem_least_damping(p);
+    constant_filter *f = &solver->filter;
+    if (f->known && f->floor == floor && desc_same_filter(&f->desc, desc)) return f;
+    const poles own = poles_at(desc, 0, floor);
+    *f = (constant_filter){.known = true, .desc = desc_settings(desc), .floor = floor, .at = own};
+    poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
+    poles damped = poles_at(desc, 0, fmax(floor, LEAST_DAMPING));
+    f->start = poles_start_cost(&damped, desc->step);
+    if (desc->passive != WIGGLY_OSCILLATOR) return f;
+    f->unit = maths_exp(-poles_weight_exponent(&f->at, desc->step));
+    f->ahead = poles_speed(&f->at, desc->step, false);
+    f->passive = cplx_scale(desc->step, poles_passive(&own));
+    f->tail = poles_tail(poles_passive(&own), &f->ahead, desc->step);
+    f->cut = f->ahead.loss.cut;
+    if (damped.decay == f->at.decay) return f;
+    f->start = poles_start_seen_from(f->start, &damped, &f->at, desc->step);
+    f->cut = f->cut || poles_speed(&damped, desc->step, false).loss.cut;
+    double weight = maths_exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
+    for (int i = 0; i < 2; i++) f->start.row[i].weight *= weight;
+    return f;
+}
 
 /// At a lower share of ω_n the jets, and not the free motion, meet a last knot's slope.
 static const double slowest_settling = 0.3;

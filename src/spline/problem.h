@@ -85,10 +85,7 @@ static inline double problem_least_damping(const problem *p)
 }
 
 /// The filter of a problem without pole tracks.
-static inline const constant_filter *problem_filter(wiggly_solver *solver, const problem *p)
-{
-    return solver_filter(solver, p->desc, problem_least_damping(p));
-}
+const constant_filter *problem_filter(wiggly_solver *solver, const problem *p);
 
 /// Whether there are knots or pulls.
 static inline bool problem_is_asked(const problem *p) { return p->earliest >= 0; }

@@ -1,8 +1,6 @@
-/// A solver's memory: one block with a fixed layout. And the cached filter.
+/// A solver's memory: one block with a fixed layout.
 #include "spline/solver.h"
-#include "maths/maths.h"
 #include <limits.h>
-#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -125,29 +123,6 @@ wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver)
 void wiggly_destroy(wiggly_solver *solver)
 {
     if (solver && solver->owned) free(solver);
-}
-
-const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor)
-{
-    constant_filter *f = &solver->filter;
-    if (f->known && f->floor == floor && desc_same_filter(&f->desc, desc)) return f;
-    const poles own = poles_at(desc, 0, floor);
-    *f = (constant_filter){.known = true, .desc = desc_settings(desc), .floor = floor, .at = own};
-    poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
-    poles damped = poles_at(desc, 0, fmax(floor, LEAST_DAMPING));
-    f->start = poles_start_cost(&damped, desc->step);
-    if (desc->passive != WIGGLY_OSCILLATOR) return f;
-    f->unit = maths_exp(-poles_weight_exponent(&f->at, desc->step));
-    f->ahead = poles_speed(&f->at, desc->step, false);
-    f->passive = cplx_scale(desc->step, poles_passive(&own));
-    f->tail = poles_tail(poles_passive(&own), &f->ahead, desc->step);
-    f->cut = f->ahead.loss.cut;
-    if (damped.decay == f->at.decay) return f;
-    f->start = poles_start_seen_from(f->start, &damped, &f->at, desc->step);
-    f->cut = f->cut || poles_speed(&damped, desc->step, false).loss.cut;
-    double weight = maths_exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
-    for (int i = 0; i < 2; i++) f->start.row[i].weight *= weight;
-    return f;
 }
 
 void wiggly_set_method(wiggly_solver *solver, wiggly_method method) { solver->method = method; }

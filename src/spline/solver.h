@@ -143,10 +143,4 @@ void evaluate_slopes(const wiggly_desc *desc, wiggly_curve *curve);
 /// Adds an error of x to that of the curve just solved. Returns the status, WIGGLY_INEXACT for WIGGLY_OK if that is too much.
 wiggly_status solver_add_error(const wiggly_solver *solver, wiggly_curve *curve, double error, wiggly_status status);
 
-/// The filter of a description without pole tracks, of at least so much damping.
-const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor);
-
-/// x behind the row `from` ≥ 1, from that and the one before: the filter run forward (r_i = 0, Figure 5).
-void solver_run_forward(wiggly_solver *solver, int from);
-
 #endif

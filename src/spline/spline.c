@@ -325,6 +325,31 @@ static void complete(wiggly_solver *solver, const problem *p, wiggly_curve *curv
     curve->start = p->start;
 }
 
+/// x behind row 1, from that and the one before: the filter run forward (r_i = 0, Figure 5).
+static void run_forward(system_rows *rows)
+{
+    // x is a double sum of small steps; what a sum loses is carried along, or N² additions would show (Kahan)
+    const double *first = rows->x;
+    double x[2] = {first[2], first[3]}, step[2] = {first[2] - first[0], first[3] - first[1]};
+    double lost_x[2] = {0}, lost_step[2] = {0};
+    for (int i = 1; i < rows->count - 1; i++) {
+        const coefficients at = system_coefficients(rows, i);
+        const cplx drive = rows->driven ? rows->drive[i] : (cplx){0, 0};
+        const cplx e = {step[0], step[1]}, behind = {x[0] - e.re, x[1] - e.im};
+        const cplx more = cplx_sub(cplx_sub(cplx_mul(at.m, e), cplx_mul(at.p, behind)), drive);
+        const double by[2] = {more.re, more.im};
+        for (int part = 0; part < 2; part++) {
+            const double a = by[part] - lost_step[part], moved = step[part] + a;
+            lost_step[part] = (moved - step[part]) - a;
+            step[part] = moved;
+            const double b = (step[part] - lost_x[part]) - lost_step[part], sum = x[part] + b;
+            lost_x[part] = (sum - x[part]) - b;
+            x[part] = sum;
+            rows->x[2 * i + 2 + part] = x[part];
+        }
+    }
+}
+
 wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
     *result = (minimum){.solved = true, .error = p->response.error};
@@ -334,7 +359,7 @@ wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curv
         solve_short(solver, p, curve);
     } else if (p->start == WIGGLY_REST && !problem_is_asked(p)) { // nothing constrains it
         problem_set_rows(solver, p);
-        solver_run_forward(solver, 1);
+        run_forward(&solver->rows);
         unpack(solver, p, curve);
     } else {
         return minimise_safely(solver, p, curve, result);
