@@ -16,16 +16,14 @@
 // What is known is not eliminated: 1/pivot is 0 there, so are all its l, and the solution.
 // The pivots are scalars: a 2×2 block with an explicit inverse keeps half of the digits only. Of A⁻¹ the diagonal follows on the way back
 // (Takahashi): with l = a / pivot, Z_kj = −Σ l_i Z_ij and Z_kk = 1/pivot − Σ l_j Z_kj need only Z of the next two samples.
-#include "spline/band.h"
 #include "maths/wide.h"
+#include "spline/system.h"
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 typedef int64_t masks __attribute__((vector_size(16), aligned(8), may_alias));
-
-#define ALWAYS_INLINE static inline __attribute__((always_inline))
 
 /// Rounding of a banded L D Lᵀ, and of its solves, in units of Σ (A⁻¹)_kk A_kk.
 static const double of_squares = 80 * DBL_EPSILON;
@@ -43,7 +41,6 @@ typedef struct record1 {
 
 _Static_assert(sizeof(record2) == 2 * BAND_RECORD * sizeof(double), "the room for a factor");
 
-ALWAYS_INLINE twin both(double a) { return (twin){a, a}; }
 ALWAYS_INLINE twin kept(twin a, masks where) { return (twin)((masks)a & where); }
 ALWAYS_INLINE twin chosen(twin a, twin other, masks where)
 {
@@ -175,16 +172,6 @@ ALWAYS_INLINE step_blocks load_step(const band_matrix *m, const bool is_complex,
         set_complex(s.f, s.g, (twin){m->f_re[up], m->f_re[down - 2]}, (twin){m->f_im[up], -m->f_im[down - 2]});
     }
     if (m->stiffness) s.a += (twin){m->stiffness[up], m->stiffness[down]};
-    return s;
-}
-
-static step_blocks usual_step(const band_matrix *m)
-{
-    const band_block *a = &m->alike;
-    step_blocks s = {.re = {-1, -1}, .im = {-1, -1}};
-    s.a = both(a->d[0]), s.b = both(0), s.d = both(a->d[2]);
-    set_complex(s.u, s.v, both(a->e[0]), (twin){a->e[2], -a->e[2]});
-    set_complex(s.f, s.g, both(a->f[0]), (twin){a->f[2], -a->f[2]});
     return s;
 }
 
@@ -434,7 +421,10 @@ ALWAYS_INLINE bool factor(band_matrix *m, const bool is_complex, const bool is_c
                           const double *x, passed *p)
 {
     const int n = band_interior(m), steps = band_steps(m);
-    const step_blocks usual = usual_step(m);
+    const band_block *alike = &m->alike;
+    step_blocks usual = {.re = {-1, -1}, .im = {-1, -1}, .a = both(alike->d[0]), .d = both(alike->d[2])};
+    set_complex(usual.u, usual.v, both(alike->e[0]), (twin){alike->e[2], -alike->e[2]});
+    set_complex(usual.f, usual.g, both(alike->f[0]), (twin){alike->f[2], -alike->f[2]});
     taken t = {.near = {{0}}};
     seam_taken of_seam = {.near = {{{0}}}};
     masks good = {-1, -1};

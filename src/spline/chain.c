@@ -180,8 +180,6 @@ static void make_tables(chain *c)
 //
 // The imaginary rows are left out: they pull with ω |Im x_j| at every sample.
 
-#define ALWAYS_INLINE static inline __attribute__((always_inline))
-
 /// Rounding of an L D Lᵀ and its solve, as the band's; of sums of the gradient and of the forms; and of a coefficient.
 static const double of_factor = 80 * DBL_EPSILON, of_sums = 8 * DBL_EPSILON, of_coefficient = 32 * DBL_EPSILON;
 static const double most = 0.5; ///< ρ from which on no bound is left

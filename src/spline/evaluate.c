@@ -3,13 +3,12 @@
 /// so that it follows a free oscillation. In cubic and real mode, and for y, it is plain Catmull-Rom. At a knot with a slope the tangent is that
 /// slope, and where x ends it is the solver's.
 #include "maths/maths.h"
+#include "maths/wide.h"
 #include "spline/host.h"
 #include "spline/poles.h"
 #include "spline/problem.h"
 #include <float.h>
 #include <math.h>
-
-#define INLINE static inline __attribute__((always_inline)) // a curve may be read at millions of times
 
 /// A curve that is read, and e^{jω_c h} of the interval where it was read last, with its square.
 typedef struct reading {
@@ -53,7 +52,7 @@ static inline bend hermite(double from, double to, double leaving, double arrivi
 }
 
 /// y goes on straight at an end.
-INLINE stretch stretch_of_y(const wiggly_curve *curve, int i)
+ALWAYS_INLINE stretch stretch_of_y(const wiggly_curve *curve, int i)
 {
     const int b = neighbour_of(curve, i - 1), a = neighbour_of(curve, i + 2);
     const double from = curve->y[i], to = curve->y[i + 1], step = to - from;
@@ -64,7 +63,7 @@ INLINE stretch stretch_of_y(const wiggly_curve *curve, int i)
 }
 
 /// x of sample `at` less `base`, back by a turn of the frame.
-INLINE cplx turned(const wiggly_curve *curve, int at, cplx base, cplx turn)
+ALWAYS_INLINE cplx turned(const wiggly_curve *curve, int at, cplx base, cplx turn)
 {
     if (curve->mode != WIGGLY_COMPLEX) return (cplx){curve->re[at] - base.re, 0};
     return cplx_mul(cplx_conj(turn), (cplx){curve->re[at] - base.re, curve->im[at] - base.im});
@@ -87,7 +86,7 @@ static cplx beyond_end(const reading *r, int from, int to, int by, cplx base)
 }
 
 /// x is a constant plus the response before the first knot, but not after it: each side ends there.
-INLINE stretch stretch_of_x(const reading *r, int i, cplx base)
+ALWAYS_INLINE stretch stretch_of_x(const reading *r, int i, cplx base)
 {
     const wiggly_curve *curve = r->curve;
     const bool loops = curve->start == WIGGLY_LOOP, moves = i >= curve->first;
@@ -108,7 +107,7 @@ INLINE stretch stretch_of_x(const reading *r, int i, cplx base)
 }
 
 /// Takes the slopes of knots at both ends of the interval after sample i.
-INLINE void follow_slopes(const reading *r, int i, double turn, stretch y, stretch *x)
+ALWAYS_INLINE void follow_slopes(const reading *r, int i, double turn, stretch y, stretch *x)
 {
     const wiggly_curve *curve = r->curve;
     const double leaving = curve->slope[i] * curve->step - y.leaving.re,
@@ -122,7 +121,7 @@ INLINE void follow_slopes(const reading *r, int i, double turn, stretch y, stret
 }
 
 /// The value in the interval after sample i; `rate` receives its change per second, unless it is NULL.
-INLINE void read_between(reading *r, int i, double u, wiggly_value *value, wiggly_value *rate)
+ALWAYS_INLINE void read_between(reading *r, int i, double u, wiggly_value *value, wiggly_value *rate)
 {
     const wiggly_curve *curve = r->curve;
     const bool is_complex = curve->mode == WIGGLY_COMPLEX;
@@ -179,7 +178,7 @@ static void read_apart(reading *r, double position, wiggly_value *value, wiggly_
 }
 
 /// `rate` receives the change per second, unless it is NULL.
-INLINE void read_at(reading *r, double position, wiggly_value *value, wiggly_value *rate)
+ALWAYS_INLINE void read_at(reading *r, double position, wiggly_value *value, wiggly_value *rate)
 {
     const double last = r->curve->samples - 1, near = r->rounding * last;
     if (position > 0 && position < last) {

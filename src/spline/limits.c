@@ -594,14 +594,16 @@ int limits_prepare(wiggly_solver *solver, problem *p, wiggly_desc *ordered)
     return -1;
 }
 
-/// The parts up to the last knot, or to the end if nothing moves freely after it, and after that, if it swings.
-static void set_parts(limits_work *w)
+wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
-    const problem *p = w->p;
+    limit_memory *m = &solver->limits;
+    limits_work w = {.solver = solver, .p = p, .curve = curve, .result = result, .has_room = true};
+
+    // The parts up to the last knot, or to the end if nothing moves freely after it, and after that, if it swings.
     const wiggly_desc *desc = p->desc;
     const bool oscillates = problem_oscillates(p), is_loop = p->start == WIGGLY_LOOP;
     const bool is_alone = desc->knot_count == 0 && oscillates && !is_loop;
-    limits_part *body = &w->body, *tail = &w->tail;
+    limits_part *body = &w.body, *tail = &w.tail;
     body->from = p->first + (p->start != WIGGLY_REST ? 0 : oscillates ? 1 : 2);
     body->to = p->settles ? p->latest : p->first + p->count - 1;
     if (p->count < 3 || !(desc->knot_count > 0 || is_loop || (p->start == WIGGLY_REST && !oscillates))) body->to = -1;
@@ -617,15 +619,9 @@ static void set_parts(limits_work *w)
     tail->desc.equilibrium = (wiggly_param){0};
     if (tail->desc.frequency.track) tail->desc.frequency.track += tail->begin;
     if (tail->desc.damping.track) tail->desc.damping.track += tail->begin;
-    w->from = has_body(w) ? body->from : tail->from;
-    w->to = has_tail(w) ? tail->to : body->to;
-}
+    w.from = has_body(&w) ? body->from : tail->from;
+    w.to = has_tail(&w) ? tail->to : body->to;
 
-wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
-{
-    limit_memory *m = &solver->limits;
-    limits_work w = {.solver = solver, .p = p, .curve = curve, .result = result, .has_room = true};
-    set_parts(&w);
     m->solves = 0, m->from = w.from, m->to = w.to;
     hold_nothing(&w);
     w.status = problem_find(solver, p, curve, result);

@@ -482,35 +482,6 @@ double wiggly_group_reach(const wiggly_group *g, const wiggly_bound *bound)
     return all > 0 ? fmax(0, rest / all) : 0;
 }
 
-/// Adds the rows of bounds, except those that knots and pins determine.
-static void add_bounds(wiggly_group *g)
-{
-    for (int b = 0; b < g->bound_count; b++) {
-        wiggly_bound *const bound = &g->bounds[b];
-        const double reach = wiggly_group_reach(g, bound);
-        bound->push = 0;
-        if (!(reach >= out_of_reach)) continue;
-        for (int s = 0; s < g->splines; s++) {
-            const problem *p = &g->pulled[s].problem;
-            double *on = g->on + 2 * g->splines * g->rows + 2 * s, re, im;
-            put_coefficients(&g->pulled[s], bound->c[s], on);
-            if (!p->settles || bound->sample <= p->latest) continue;
-            // After the last knot x is e^{p…} times x at the knot.
-            problem_fill_tail(g->pulled[s].solver, p, (cplx){1, 0}, bound->sample - p->latest, 1, &re, &im);
-            const double c[2] = {on[0], on[1]};
-            on[0] = c[0] * re + c[1] * im;
-            on[1] = c[1] * re - c[0] * im;
-        }
-        g->row[g->rows] = (pin_row){.sample = bound->sample,
-                                    .first = g->rows,
-                                    .count = 1,
-                                    .want = bound->least,
-                                    .soft = softness(reach) / reach + least_soft,
-                                    .bound = bound};
-        g->rows++;
-    }
-}
-
 // --- the system of the pins ------------------------------------------------------------------------------------------
 
 /// For each row, finds the pull at its sample.
@@ -902,25 +873,6 @@ static wiggly_status press_bounds(wiggly_group *g)
     return add_miss(g, energy, status);
 }
 
-/// What is left of pins and bounds.
-static void tell(const wiggly_group *g)
-{
-    for (int i = 0; i < g->pin_count; i++) {
-        wiggly_pin *pin = &g->pins[i];
-        for (int axis = 0; axis < 3; axis++) pin->left[axis] = pin->to[axis] * g->unit;
-        for (int k = 0; k < pin->pull_count; k++) {
-            const wiggly_pull *by = &pin->pulls[k];
-            if (!moves(pin, by->spline)) continue;
-            const cplx x = solved_x(&g->pulled[by->spline], pin->sample);
-            for (int axis = 0; axis < 3; axis++) pin->left[axis] -= by->c[axis][0] * x.re - by->c[axis][1] * x.im;
-        }
-        for (int axis = 0; axis < 3; axis++) pin->left[axis] /= g->unit;
-    }
-    for (int b = 0; b < g->bound_count; b++)
-        g->bounds[b].left = (g->bounds[b].least * g->unit - see_bound(g, &g->bounds[b])) / g->unit;
-    for (int r = g->fixed; r < g->rows; r++) g->row[r].bound->push = g->lambda[r] / g->unit;
-}
-
 static wiggly_status solve_group(wiggly_group *g, const wiggly_desc *descs, const double *weights,
                                  wiggly_curve *curves)
 {
@@ -941,7 +893,33 @@ static wiggly_status solve_group(wiggly_group *g, const wiggly_desc *descs, cons
         add_rows(g, g->order + from, to - from);
     }
     g->fixed = g->rows;
-    add_bounds(g);
+
+    // The rows of bounds, except those that knots and pins determine.
+    for (int b = 0; b < g->bound_count; b++) {
+        wiggly_bound *const bound = &g->bounds[b];
+        const double reach = wiggly_group_reach(g, bound);
+        bound->push = 0;
+        if (!(reach >= out_of_reach)) continue;
+        for (int s = 0; s < g->splines; s++) {
+            const problem *p = &g->pulled[s].problem;
+            double *on = g->on + 2 * g->splines * g->rows + 2 * s, re, im;
+            put_coefficients(&g->pulled[s], bound->c[s], on);
+            if (!p->settles || bound->sample <= p->latest) continue;
+            // After the last knot x is e^{p…} times x at the knot.
+            problem_fill_tail(g->pulled[s].solver, p, (cplx){1, 0}, bound->sample - p->latest, 1, &re, &im);
+            const double c[2] = {on[0], on[1]};
+            on[0] = c[0] * re + c[1] * im;
+            on[1] = c[1] * re - c[0] * im;
+        }
+        g->row[g->rows] = (pin_row){.sample = bound->sample,
+                                    .first = g->rows,
+                                    .count = 1,
+                                    .want = bound->least,
+                                    .soft = softness(reach) / reach + least_soft,
+                                    .bound = bound};
+        g->rows++;
+    }
+
     const int n = g->rows;
     bool all = true;
     memset(g->system, 0, sizeof *g->system * (size_t)(n * n));
@@ -953,7 +931,22 @@ static wiggly_status solve_group(wiggly_group *g, const wiggly_desc *descs, cons
     }
     soften(g);
     status = n > g->fixed ? press_bounds(g) : pull_pins(g);
-    tell(g);
+
+    // What is left of pins and bounds.
+    for (int i = 0; i < g->pin_count; i++) {
+        wiggly_pin *pin = &g->pins[i];
+        for (int axis = 0; axis < 3; axis++) pin->left[axis] = pin->to[axis] * g->unit;
+        for (int k = 0; k < pin->pull_count; k++) {
+            const wiggly_pull *by = &pin->pulls[k];
+            if (!moves(pin, by->spline)) continue;
+            const cplx x = solved_x(&g->pulled[by->spline], pin->sample);
+            for (int axis = 0; axis < 3; axis++) pin->left[axis] -= by->c[axis][0] * x.re - by->c[axis][1] * x.im;
+        }
+        for (int axis = 0; axis < 3; axis++) pin->left[axis] /= g->unit;
+    }
+    for (int b = 0; b < g->bound_count; b++)
+        g->bounds[b].left = (g->bounds[b].least * g->unit - see_bound(g, &g->bounds[b])) / g->unit;
+    for (int r = g->fixed; r < g->rows; r++) g->row[r].bound->push = g->lambda[r] / g->unit;
     for (int s = 0; s < g->splines; s++)
         solver_scale_back(g->pulled[s].solver, desc_at(descs, s), g->pulled[s].curve);
     return all ? status : WIGGLY_SINGULAR;

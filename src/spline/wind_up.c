@@ -134,20 +134,6 @@ static void look_back(const wiggly_solver *solver, const problem *p, const poles
     g->doubt = doubt < 0.1 * g->knot ? doubt / g->knot : INFINITY;
 }
 
-/// The squared gains of pushes, |g_i/g_k|², to `jet_weight`.
-static void set_weights(const wiggly_solver *solver, const problem *p, const wind_gap *g)
-{
-    double *const weight = solver->rows.jet_weight;
-    const double *exponent = solver->rows.im_weight, own = exponent[sample_of(p, g->end)];
-    for (int i = g->begin; i < g->end;) {
-        const int at = sample_of(p, i), seam = p->start == WIGGLY_LOOP ? p->count - at : g->end - i;
-        const int left = seam < g->end - i ? seam : g->end - i, count = left < POLES_BLOCK ? left : POLES_BLOCK;
-        for (int k = 0; k < count; k++) weight[at + k] = own - exponent[at + k];
-        poles_block_exp(weight + at, count, weight + at);
-        i += count;
-    }
-}
-
 /// How the free motion reaches the window: w at its first sample and the step from there, for w = 1 at the gap's knot.
 static void begin_window(const wiggly_solver *solver, const problem *p, double back, wind_gap *g)
 {
@@ -198,7 +184,15 @@ static void set_gap(wiggly_solver *solver, const problem *p, int from, int end, 
         g->both = like->both, g->row = like->row, g->knot = like->knot, g->doubt = like->doubt;
     } else {
         g->push = push;
-        if (!solver->wind.is_constant) set_weights(solver, p, g);
+        double *const weight = solver->rows.jet_weight; // the squared gains of pushes, |g_i/g_k|²
+        const double *exponent = solver->rows.im_weight, *last = exponent + sample_of(p, end);
+        for (int i = g->begin; i < end && !solver->wind.is_constant;) {
+            const int sample = sample_of(p, i), seam = p->start == WIGGLY_LOOP ? p->count - sample : end - i;
+            const int left = seam < end - i ? seam : end - i, count = left < POLES_BLOCK ? left : POLES_BLOCK;
+            for (int k = 0; k < count; k++) weight[sample + k] = *last - exponent[sample + k];
+            poles_block_exp(weight + sample, count, weight + sample);
+            i += count;
+        }
         look_back(solver, p, &at, g);
     }
     begin_window(solver, p, back, g);
