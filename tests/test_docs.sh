@@ -259,7 +259,7 @@ docs/mathematics.md~at least 0.05·c~src/spline/poles.h~LEAST_DAMPING 0.05
 docs/mathematics.md~\ge 10^{-4}~src/spline/pins.c~out_of_reach = 1e-4, firm = 0.04
 docs/mathematics.md~(0.04/\varepsilon)~src/spline/pins.c~firm = 0.04
 docs/mathematics.md~10⁻⁵ of the character's size~src/scene/evaluate.c~DEEP = 1e-5
-docs/mathematics.md~an eighth of a period~src/spline/variation.c~CELLS = 8
+docs/mathematics.md~an eighth of a period~src/spline/pose.c~CELLS = 8
 docs/mathematics.md~+ 30\,~src/spline/explain.c~pluck = 30;
 docs/mathematics.md~(0.03\,~src/spline/explain.c~blur = 0.03;
 docs/mathematics.md~to 1.25 times~src/spline/explain.c~headroom = 1.25;

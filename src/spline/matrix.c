@@ -28,34 +28,29 @@ jet_row system_jet(const system_rows *rows, int i)
 
 static void put_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2] += z.im, at[3] += z.re; }
 
-/// The jets' part of a sample's block, from the rows around it.
-static void set_own(const system_rows *rows, band_matrix *m, int k)
-{
-    band_block *block = band_own(m, k);
-    const int next = system_beside(rows, k, 1), before = system_beside(rows, k, -1);
-    const jet_row own = system_jet(rows, k);
-    double d = own.weight * cplx_norm(own.own);
-    *block = (band_block){.d = {0}};
-    if (before >= 0) d += system_jet(rows, before).weight;
-    if (next >= 0) {
-        const jet_row after = system_jet(rows, next);
-        const double of_own = rows->fixed[k] & FIXED_STILL ? -own.weight : 0;
-        d += after.weight * cplx_norm(after.before);
-        put_complex(block->e, cplx_scale(after.weight, cplx_mul(cplx_conj(after.own), after.before)));
-        put_complex(block->e, of_own != 0 ? (cplx){of_own, 0} : cplx_scale(own.weight, own.own));
-        const bool ends = !rows->loop && next == rows->count - 1;
-        if (!ends && !(rows->fixed[next] & FIXED_STILL))
-            put_complex(block->f, cplx_scale(after.weight, after.before));
-    }
-    block->d[0] = block->d[2] = d;
-    if (rows->is_complex) block->d[2] += rows->is_constant ? rows->own_im : rows->im_weight[k];
-}
-
+/// The jets' part of the blocks of a sample and those beside it, from the rows around each.
 static void set_own_around(const system_rows *rows, band_matrix *m, int i)
 {
     for (int by = -1; by <= 1; by++) {
-        const int at = system_beside(rows, i, by);
-        if (at >= 0 && !(m->marks[at] & BAND_OWN)) set_own(rows, m, at);
+        const int k = system_beside(rows, i, by);
+        if (k < 0 || m->marks[k] & BAND_OWN) continue;
+        band_block *block = band_own(m, k);
+        const int next = system_beside(rows, k, 1), before = system_beside(rows, k, -1);
+        const jet_row own = system_jet(rows, k);
+        double d = own.weight * cplx_norm(own.own);
+        *block = (band_block){.d = {0}};
+        if (before >= 0) d += system_jet(rows, before).weight;
+        if (next >= 0) {
+            const jet_row after = system_jet(rows, next);
+            const bool ends = !rows->loop && next == rows->count - 1, still = rows->fixed[k] & FIXED_STILL;
+            d += after.weight * cplx_norm(after.before);
+            put_complex(block->e, cplx_scale(after.weight, cplx_mul(cplx_conj(after.own), after.before)));
+            put_complex(block->e, cplx_scale(own.weight, still ? (cplx){-1, 0} : own.own));
+            if (!ends && !(rows->fixed[next] & FIXED_STILL))
+                put_complex(block->f, cplx_scale(after.weight, after.before));
+        }
+        block->d[0] = block->d[2] = d;
+        if (rows->is_complex) block->d[2] += rows->is_constant ? rows->own_im : rows->im_weight[k];
     }
 }
 
@@ -73,13 +68,6 @@ stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
 static void add_square(double *diagonal, double w, cplx c)
 {
     diagonal[0] += w * (c.re * c.re), diagonal[1] -= w * (c.re * c.im), diagonal[2] += w * (c.im * c.im);
-}
-
-/// The block of w (Re to·z')(Re from·z), rows z', columns z.
-static void add_product(double *block, double w, cplx to, cplx from)
-{
-    block[0] += w * (to.re * from.re), block[1] -= w * (to.re * from.im);
-    block[2] -= w * (to.im * from.re), block[3] += w * (to.im * from.im);
 }
 
 /// The blocks of varying rows, as if all around them were jets of the usual kind.
@@ -140,7 +128,10 @@ void system_matrix(const system_rows *rows, band_matrix *m)
             if (i == j) {
                 add_square(block->d, w, s.c[i]);
             } else {
-                add_product(i - j == 2 ? block->f : block->e, w, s.c[i], s.c[j]);
+                double *c = i - j == 2 ? block->f : block->e; // w (Re to·z')(Re from·z), rows z', columns z
+                const cplx to = s.c[i], from = s.c[j];
+                c[0] += w * (to.re * from.re), c[1] -= w * (to.re * from.im);
+                c[2] -= w * (to.im * from.re), c[3] += w * (to.im * from.im);
             }
         }
     }

@@ -361,7 +361,8 @@ void system_gradient(const system_rows *rows, const band_matrix *m, row_errors *
         rows->gradient[2 * k + 1] -= (rows->is_constant ? rows->own_im : rows->im_weight[k]) * rows->x[2 * k + 1];
 }
 
-void system_right_side(const system_rows *rows, const band_matrix *m)
+/// The gradient where all unknowns are 0, by the squared matrix; what it leaves at fixed ones means nothing.
+static void set_right_side(const system_rows *rows, const band_matrix *m)
 {
     const int n = rows->count;
     memset(rows->gradient, 0, sizeof *rows->gradient * 2 * (size_t)n);
@@ -453,7 +454,7 @@ static void solve_first(wiggly_solver *solver)
         put_solution(rows);
         system_gradient(rows, NULL, NULL);
     } else {
-        system_right_side(rows, m);
+        set_right_side(rows, m);
     }
     band_solve(m, rows->gradient, !m->has_spread);
     put_solution(rows);
@@ -506,7 +507,7 @@ minimum solver_minimise(wiggly_solver *solver)
     if (rows->count <= solver->longest_squared) {
         m->is_kept = is_kept && band_is_kept(m);
         if (m->is_kept) return solver_find(solver);
-        system_right_side(rows, m);
+        set_right_side(rows, m);
         if (band_factor_solve(m, rows->gradient)) {
             put_solution(rows);
             band_keep(m);

@@ -120,15 +120,6 @@ void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from
 /// The same for all samples after the latest knot; arrays of the whole spline.
 void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im);
 
-/// Whether a description has noise that its knots are solved over: some amount, an oscillator of constant poles that has a frequency.
-bool variation_is_set(const wiggly_desc *desc);
-
-/// The height of the farthest knot above the equilibrium. The noise is the variation times that, or times 1 if it is 0.
-double variation_farthest(const wiggly_desc *desc);
-
-/// Adds every sample's noise to u, once the domain is known, and the value before `first` to the held value.
-void variation_add(problem *p);
-
 /// Checks a description that was read, but not whether two knots are on one sample; `knot` receives the index of a wrong one, else -1;
 /// `y_is_safe` whether the equilibrium is within SAFE_VALUE.
 wiggly_status desc_check(const wiggly_desc *desc, int *knot, bool *y_is_safe);

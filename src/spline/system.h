@@ -88,23 +88,6 @@ double band_solve(band_matrix *band, double *x, bool spread);
 /// band_factor() and that, with the spread.
 bool band_factor_solve(band_matrix *band, double *x);
 
-// --- the factor's storage, for those who factor the rows ---
-
-/// Samples before a loop's seam; those that each end eliminates; the samples between.
-static inline int band_interior(const band_matrix *b) { return b->cyclic ? b->count - 2 : b->count; }
-static inline int band_steps(const band_matrix *b)
-{
-    const int n = band_interior(b);
-    return n < 4 ? 0 : (n - 2) / 2;
-}
-static inline int band_middle(const band_matrix *b) { return band_interior(b) - 2 * band_steps(b); }
-
-/// A row U of a triangular factor with pivot u[0]: of a sample's part, coupled to its other part, the next two samples, and the seam.
-void band_put_row(band_matrix *band, int step, int lane, int part, const double *u, const double *seam);
-
-/// The dense block's triangular factor, and the spread of a factor put so.
-void band_put_dense(band_matrix *band, double u[BAND_DENSE][BAND_DENSE]);
-
 // --- the rows
 
 typedef struct slope_row {
@@ -208,9 +191,6 @@ typedef struct row_errors {
 /// gradient = −½ ∇(E·h³) at x through the unsquared rows; `errors` as to the matrix's spread, or NULL. At a fixed unknown it is the opposite of
 /// the force that holds it.
 void system_gradient(const system_rows *rows, const band_matrix *matrix, row_errors *errors);
-
-/// The same where all unknowns are 0, by the squared matrix; what it leaves at fixed ones means nothing.
-void system_right_side(const system_rows *rows, const band_matrix *matrix);
 
 /// Sets all known values, targets and drives to 0: the solution is then the response to pulls.
 void system_forget_known(system_rows *rows);
