@@ -165,8 +165,8 @@ static void load_each(const band_matrix *m, int up, int down, step_blocks *s)
 ALWAYS_INLINE void set_complex(twin *re, twin *im, twin r, twin i) { re[0] = r, re[1] = i, im[0] = -i, im[1] = r; }
 
 /// The blocks of a step. `usual` are those of samples that are alike.
-ALWAYS_INLINE step_blocks load_step(const band_matrix *m, const bool is_complex, const bool is_alike, int up,
-                                    int down, const step_blocks *usual)
+ALWAYS_INLINE step_blocks load_step(const band_matrix *m, const bool is_complex, int up, int down,
+                                    const step_blocks *usual)
 {
     if (unusual(is_complex, m->marks[up], m->marks[down])) {
         step_blocks s;
@@ -174,7 +174,7 @@ ALWAYS_INLINE step_blocks load_step(const band_matrix *m, const bool is_complex,
         return s;
     }
     step_blocks s = *usual;
-    if (!is_alike) {
+    if (!m->is_alike) {
         s.a = (twin){m->d[up], m->d[down]}, s.d = s.a;
         if (is_complex && m->im_weight) s.d += (twin){m->im_weight[up], m->im_weight[down]};
         set_complex(s.u, s.v, (twin){m->e_re[up], m->e_re[down - 1]}, (twin){m->e_im[up], -m->e_im[down - 1]});
@@ -426,8 +426,7 @@ ALWAYS_INLINE void forward_real(band_matrix *m, const bool is_cyclic, int step, 
 // --- factor and solve ---
 
 /// Factors, and passes the right side x on if there is one.
-ALWAYS_INLINE bool factor(band_matrix *m, const bool is_complex, const bool is_cyclic, const bool is_alike,
-                          const double *x, passed *p)
+ALWAYS_INLINE bool factor(band_matrix *m, const bool is_complex, const bool is_cyclic, const double *x, passed *p)
 {
     const int n = band_interior(m), steps = band_steps(m);
     const band_block *alike = &m->alike;
@@ -438,7 +437,7 @@ ALWAYS_INLINE bool factor(band_matrix *m, const bool is_complex, const bool is_c
     seam_taken of_seam = {.near = {{{0}}}};
     masks good = {-1, -1};
     for (int r = 0; r < steps; r++) {
-        const step_blocks s = load_step(m, is_complex, is_alike, r, n - 1 - r, &usual);
+        const step_blocks s = load_step(m, is_complex, r, n - 1 - r, &usual);
         if (is_complex) {
             record2 *to = (record2 *)(void *)m->record + r;
             twin pair[4][2];
@@ -465,17 +464,9 @@ ALWAYS_INLINE bool factor(band_matrix *m, const bool is_complex, const bool is_c
 static bool factor_any(band_matrix *m, const double *x, passed *p)
 {
     m->by_rows = m->has_spread = false;
-    if (m->is_complex) {
-        m->is_factor = m->cyclic
-                           ? m->is_alike ? factor(m, true, true, true, x, p) : factor(m, true, true, false, x, p)
-                       : m->is_alike ? factor(m, true, false, true, x, p)
-                                     : factor(m, true, false, false, x, p);
-    } else {
-        m->is_factor = m->cyclic
-                           ? m->is_alike ? factor(m, false, true, true, x, p) : factor(m, false, true, false, x, p)
-                       : m->is_alike ? factor(m, false, false, true, x, p)
-                                     : factor(m, false, false, false, x, p);
-    }
+    m->is_factor = m->is_complex ? m->cyclic ? factor(m, true, true, x, p) : factor(m, true, false, x, p)
+                   : m->cyclic ? factor(m, false, true, x, p)
+                                 : factor(m, false, false, x, p);
     return m->is_factor;
 }
 
@@ -729,24 +720,16 @@ static double back_any(band_matrix *m, double *x, const passed *p, bool spread)
 ALWAYS_INLINE void forward_all(band_matrix *m, const bool is_complex, const bool is_cyclic, const double *x,
                                passed *p)
 {
-    for (int r = 0; r < band_steps(m); r++) {
-        if (is_complex) {
-            forward(m, is_cyclic, r, x, p);
-        } else {
-            forward_real(m, is_cyclic, r, x, p);
-        }
-    }
+    for (int r = 0; r < band_steps(m); r++) (is_complex ? forward : forward_real)(m, is_cyclic, r, x, p);
 }
 
 double band_solve(band_matrix *m, double *x, bool spread)
 {
     passed p = {.near = {{0}}};
-    if (m->is_complex) {
-        if (m->cyclic) {
-            forward_all(m, true, true, x, &p);
-        } else {
-            forward_all(m, true, false, x, &p);
-        }
+    if (m->is_complex && m->cyclic) {
+        forward_all(m, true, true, x, &p);
+    } else if (m->is_complex) {
+        forward_all(m, true, false, x, &p);
     } else if (m->cyclic) {
         forward_all(m, false, true, x, &p);
     } else {

@@ -166,21 +166,16 @@ static wiggly_status solve_of_many(wiggly_solver *solver, const wiggly_desc *des
     wiggly_desc own = *desc;
     own.knots = solver->filled;
     own.knot_count = fill_knots(many, spline, solver->filled, solver->knots);
-    // Where a solve itself keeps them if the caller does not want them.
-    double *const total = solver->rows.jet, *const y = solver->y, *const re = solver->re, *const im = solver->im;
-    wiggly_curve curve = {.size = sizeof curve,
-                          .total = row_of(&many->total, spline, total),
-                          .y = row_of(&many->y, spline, y),
-                          .re = row_of(&many->re, spline, re),
-                          .im = row_of(&many->im, spline, im),
-                          .knot = -1};
+    // The rows, and where a solve itself keeps them if the caller does not want them.
+    const wiggly_rows *const rows[] = {&many->total, &many->y, &many->re, &many->im};
+    double *const kept[] = {solver->rows.jet, solver->y, solver->re, solver->im};
+    wiggly_curve curve = {.size = sizeof curve, .knot = -1};
+    double **const arrays[] = {&curve.total, &curve.y, &curve.re, &curve.im};
+    for (int a = 0; a < 4; a++) *arrays[a] = row_of(rows[a], spline, kept[a]);
     const wiggly_status status = solver_solve(solver, &own, &curve);
     if (many->knot) many->knot[spline] = place_of(many, spline, curve.knot);
     if (status >= WIGGLY_ERROR_ARGUMENT) return status;
-    scatter(&many->total, spline, total, own.samples);
-    scatter(&many->y, spline, y, own.samples);
-    scatter(&many->re, spline, re, own.samples);
-    scatter(&many->im, spline, im, own.samples);
+    for (int a = 0; a < 4; a++) scatter(rows[a], spline, kept[a], own.samples);
     return status;
 }
 

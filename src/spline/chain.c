@@ -516,22 +516,6 @@ static void add_stretch_errors(const chain *c, int j, double *steps, row_sums *s
         add_slope(c, j + 1, s->loss, s->weight1 * rows, s->weight1 * row->reach, row->pull, sums);
 }
 
-static void add_first_errors(const chain *c, row_sums *sums)
-{
-    const chain_node *node = &c->nodes[0];
-    const double *spread = c->rows[0].spread, growth = size_of((cplx){c->lambda.re - 1, c->lambda.im});
-    const double x = size_of(node->x), e = size_of(node->d) + growth * x;
-    for (int i = 0; i < 2; i++) {
-        const struct start_row *row = &c->start.row[i];
-        const double on_x = size_of(row->on_x), on_e = size_of(row->on_e),
-                     off_x = row->loss.x + of_coefficient * on_x, off_e = row->loss.e + of_coefficient * on_e;
-        sums->misses += row->weight * square(off_x * x + off_e * e + c->noise * (on_x + growth * on_e));
-        sums->pulls += row->weight * size_of(start_at(start_on_x(c, row), row, node)) *
-                       (off_x * spread[0] + off_e * (spread[1] + growth * spread[0]));
-    }
-    if (node->at.slope_weight > 0) add_slope(c, 0, of_coefficient, 0, 0, first_pull(node), sums);
-}
-
 // --- a solve
 
 /// x of `count` samples of a stretch of `length`, from its first on, for the state s there and the costate ν at its end.
@@ -587,9 +571,21 @@ static bool solve(chain *c, double *x_re, double *x_im)
     const int at = node->at.sample, after = c->count - at;
     fill(c, after - 1, after, (cplx[]){node->x, node->d}, (cplx[2]){{0, 0}}, x_re + at, x_im + at);
 
+    // What rounding may be: of the first node's rows, of each stretch, and of what Im x costs.
     row_sums sums = {0, 0};
     double steps = c->loss * (after + 16) * (size_of(node->x) + chain_reach(c, after) * size_of(node->d));
-    add_first_errors(c, &sums);
+    const chain_node *first = &c->nodes[0];
+    const double *spread = c->rows[0].spread, growth = size_of((cplx){c->lambda.re - 1, c->lambda.im});
+    const double x0 = size_of(first->x), e = size_of(first->d) + growth * x0;
+    for (int i = 0; i < 2; i++) {
+        const struct start_row *row = &c->start.row[i];
+        const double on_x = size_of(row->on_x), on_e = size_of(row->on_e),
+                     off_x = row->loss.x + of_coefficient * on_x, off_e = row->loss.e + of_coefficient * on_e;
+        sums.misses += row->weight * square(off_x * x0 + off_e * e + c->noise * (on_x + growth * on_e));
+        sums.pulls += row->weight * size_of(start_at(start_on_x(c, row), row, first)) *
+                      (off_x * spread[0] + off_e * (spread[1] + growth * spread[0]));
+    }
+    if (first->at.slope_weight > 0) add_slope(c, 0, of_coefficient, 0, 0, first_pull(first), &sums);
     for (int j = 0; j < last; j++) add_stretch_errors(c, j, &steps, &sums);
     if (c->im_weight > 0) { // as rows that miss, or as pulls
         const double root = sqrt(c->im_weight), moved = root * c->spread * sqrt(c->count);

@@ -197,9 +197,6 @@ static bool has_arrays(const wiggly_curve *curve)
     return curve->y && curve->re && curve->im && (curve->mode != WIGGLY_COMPLEX || curve->omega);
 }
 
-/// Below this share of ω_n a wind-up takes no slope.
-static const double slowest_slope = 0.3;
-
 /// The solver's jet at a knot costs (a − v)² 2/h + (v − b)² 2/h, where v is the speed at the knot and a and b are those half a sample after and
 /// before it. Beside stiffness (v − slope)², v lies between their mean and the slope. At an end there is one of them.
 void evaluate_slopes(const wiggly_desc *desc, wiggly_curve *curve)
@@ -213,7 +210,7 @@ void evaluate_slopes(const wiggly_desc *desc, wiggly_curve *curve)
         if (!knot->has_slope) continue;
         if (desc->wind_up > 0 && desc->mode != WIGGLY_CUBIC) {
             const poles at = poles_at(desc, knot->sample, 0);
-            if (!(at.centre > slowest_slope * at.natural)) continue;
+            if (!(at.centre > SLOWEST_SLOPE * at.natural)) continue;
         }
         wiggly_value value, rate;
         read_at(&r, knot->sample, &value, &rate);

@@ -74,23 +74,6 @@ static double cost_of(const sight *s, double frequency, double damping)
     return size > 0 ? 0.5 * n * maths_log(size) + volume : INFINITY;
 }
 
-/// Descends from the grid's best point in steps that halve.
-static wiggly_explanation refine(const sight *s, wiggly_explanation at, double ratio)
-{
-    double pitch = sqrt(ratio), more = 1.25;
-    for (int n = 0; n < REFINEMENTS; n++) {
-        const double frequency[] = {at.frequency * pitch, at.frequency / pitch, at.frequency, at.frequency};
-        const double damping[] = {at.damping, at.damping, fmin(at.damping * more, 0.9), at.damping / more};
-        const double before = at.cost;
-        for (int k = 0; k < 4; k++) {
-            const double cost = cost_of(s, frequency[k], damping[k]);
-            if (cost < at.cost) at = (wiggly_explanation){frequency[k], damping[k], cost};
-        }
-        if (at.cost == before) pitch = sqrt(pitch), more = sqrt(more);
-    }
-    return at;
-}
-
 static int explain(const wiggly_desc *desc, wiggly_explanation best[2])
 {
     wiggly_desc own;
@@ -115,7 +98,19 @@ static int explain(const wiggly_desc *desc, wiggly_explanation best[2])
     for (int n = 0; n < PITCHES; n++) {
         const double below = n > 0 ? all[n - 1].cost : INFINITY, above = n + 1 < PITCHES ? all[n + 1].cost : INFINITY;
         if (!isfinite(all[n].cost) || !(all[n].cost < below && all[n].cost <= above)) continue;
-        const wiggly_explanation found = refine(&s, all[n], ratio);
+        wiggly_explanation found = all[n]; // descends from the grid's best point in steps that halve
+        double step = sqrt(ratio), more = 1.25;
+        for (int r = 0; r < REFINEMENTS; r++) {
+            const wiggly_explanation from = found;
+            const double frequency[] = {from.frequency * step, from.frequency / step, from.frequency, from.frequency};
+            const double damping[] = {from.damping, from.damping, fmin(from.damping * more, 0.9),
+                                      from.damping / more};
+            for (int k = 0; k < 4; k++) {
+                const double cost = cost_of(&s, frequency[k], damping[k]);
+                if (cost < found.cost) found = (wiggly_explanation){frequency[k], damping[k], cost};
+            }
+            if (found.cost == from.cost) step = sqrt(step), more = sqrt(more);
+        }
         if (count == 0 || found.cost < best[0].cost) {
             best[1] = best[0];
             best[0] = found;

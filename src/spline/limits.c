@@ -466,10 +466,7 @@ static double moved_if_held(limits_work *w, double slack)
 static double find_slack(const limits_work *w)
 {
     double most = 0;
-    for (int i = w->from; i <= w->to; i++) {
-        const double size = fabs(total_of(w, i));
-        if (size > most) most = size;
-    }
+    for (int i = w->from; i <= w->to; i++) most = fmax(most, fabs(total_of(w, i)));
     return beyond * most;
 }
 
@@ -477,10 +474,7 @@ static double find_slack(const limits_work *w)
 static double find_excess(const limits_work *w)
 {
     double most = 0;
-    for (int i = w->from; i <= w->to; i++) {
-        const double by = is_held(w, i) ? 0 : fabs(excess_of(w, i, 0));
-        if (by > most) most = by;
-    }
+    for (int i = w->from; i <= w->to; i++) most = fmax(most, is_held(w, i) ? 0 : fabs(excess_of(w, i, 0)));
     return most;
 }
 
@@ -513,10 +507,7 @@ static void exchange(limits_work *w, double slack)
     signed char *held = w->solver->limits.held;
     double hardest = 0, most = 0;
     int farthest = -1;
-    for (int i = w->from; i <= w->to; i++) {
-        const double pull = pull_of(w, i);
-        if (pull > hardest) hardest = pull;
-    }
+    for (int i = w->from; i <= w->to; i++) hardest = fmax(hardest, pull_of(w, i));
     for (int i = w->from; i <= w->to; i++) {
         const double by = held[i] == LIMITS_FREE ? excess_of(w, i, slack) : 0;
         if (fabs(by) > fabs(most)) most = by, farthest = i;

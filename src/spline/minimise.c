@@ -153,20 +153,6 @@ static coefficient_loss loss_at(const system_rows *rows, int i)
     return rows->is_constant ? rows->own_loss : (coefficient_loss){rows->loss_m[i], rows->loss_p[i]};
 }
 
-/// The square of what the jets' coefficients' rounding pulls at most, a unit of energy: Σ w (Δm √D of the difference + Δp √D of the sample before)².
-static double pull_of_jets(const system_rows *rows, const double *spread)
-{
-    const int last = rows->count - 1;
-    double sum = 0;
-    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        const coefficient_loss loss = loss_at(rows, i);
-        const double *d = spread + 2 * i, before = i > 0 ? d[-2] : rows->loop ? spread[2 * last] : 0;
-        const double weight = (rows->is_constant ? 1 : rows->jet_weight[i]) * (rows->fixed[i] & JET_TWICE ? 2 : 1);
-        sum += weight * (loss.m * loss.m * d[1] + loss.p * loss.p * before);
-    }
-    return 2 * sum;
-}
-
 static inline void load(const system_rows *rows, int k, cplx by)
 {
     if (k >= 0) rows->gradient[2 * k] += by.re, rows->gradient[2 * k + 1] += by.im;
@@ -346,8 +332,16 @@ void system_gradient(const system_rows *rows, const band_matrix *m, row_errors *
     }
     if (errors) {
         const double of_weight = 16 * DBL_EPSILON;
+        double pulled = 0; // Σ w (Δm √D of the difference + Δp √D of the sample before)², at most
+        for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+            const coefficient_loss loss = loss_at(rows, i);
+            const double *d = m->spread + 2 * i, before = i > 0 ? d[-2] : rows->loop ? m->spread[2 * last] : 0;
+            const double weight =
+                (rows->is_constant ? 1 : rows->jet_weight[i]) * (rows->fixed[i] & JET_TWICE ? 2 : 1);
+            pulled += 2 * weight * (loss.m * loss.m * d[1] + loss.p * loss.p * before);
+        }
         *errors = (row_errors){.misses = misses + rows->drive_error + of_weight * of_weight * energy,
-                               .pulls = sqrt(energy * pull_of_jets(rows, m->spread))};
+                               .pulls = sqrt(energy * pulled)};
         if (!rows->loop && rows->jet_to == last) {
             const double off = rows->tail_loss;
             errors->misses += system_jet(rows, last).weight * (off * off) * norm(sample_at(rows->x, last));

@@ -420,7 +420,7 @@ static void add_rows(wiggly_group *g, const int *order, int pin_count)
         }
     }
     symmetric_eigen(n, square, values, vectors);
-    for (int i = 0; i < n; i++) largest = fmax(largest, values[i]);
+    largest = fmax(0, values[n - 1]);
     for (int i = 0; i < n; i++) {
         double reach = largest > 0 ? values[i] / largest : 0;
         if (!(reach >= out_of_reach)) continue;
@@ -596,12 +596,14 @@ static void soften(wiggly_group *g)
         double *block = g->scratch, *vectors = block + count * count, *values = vectors + count * count, most = 0,
                softest = 0;
         for (int i = 0; i < count; i++) softest = fmax(softest, g->row[from + i].soft);
-        for (int i = 0; i < count && softest > 0; i++) {
-            for (int j = 0; j <= i; j++)
-                block[count * i + j] = block[count * j + i] = g->system[n * (from + i) + from + j];
+        if (softest > 0) {
+            for (int i = 0; i < count * count; i++) {
+                const int row = from + i / count, column = from + i % count;
+                block[i] = g->system[row > column ? n * row + column : n * column + row];
+            }
+            symmetric_eigen(count, block, values, vectors);
+            most = fmax(0, values[count - 1]);
         }
-        if (softest > 0) symmetric_eigen(count, block, values, vectors);
-        for (int i = 0; i < count && softest > 0; i++) most = fmax(most, values[i]);
         for (int i = from; i < from + count; i++) {
             g->soft[i] = g->row[i].soft * most;
             g->system[n * i + i] += g->soft[i];

@@ -269,8 +269,6 @@ static void variation_add(problem *p)
 /// The largest power of two that is a double, either way.
 enum { MOST = 1000 };
 
-static inline double larger(double a, double b) { return a > b ? a : b; }
-
 double scale_size(const wiggly_solver *solver, const wiggly_desc *desc)
 {
     const wiggly_param *y = &desc->equilibrium;
@@ -279,19 +277,18 @@ double scale_size(const wiggly_solver *solver, const wiggly_desc *desc)
     for (int k = 0; k < desc->knot_count; k++) {
         const wiggly_knot *knot = &desc->knots[k];
         if (knot->still) continue;
-        size = larger(fabs(knot->value), size);
-        if (knot->has_phase && desc->mode == WIGGLY_COMPLEX) size = larger(fabs(knot->phase), size);
+        size = fmax(fabs(knot->value), size);
+        if (knot->has_phase && desc->mode == WIGGLY_COMPLEX) size = fmax(fabs(knot->phase), size);
         // What a slope moves at most: its line, if it is stiff beside the jets, which bend by less than n⁴.
         if (knot->has_slope)
-            size = larger(seconds * fabs(knot->slope) * fmin(1, knot_stiffness(knot) * desc->step * n4), size);
+            size = fmax(seconds * fabs(knot->slope) * fmin(1, knot_stiffness(knot) * desc->step * n4), size);
     }
     if (variation_is_set(desc)) {
         const double farthest = variation_farthest(desc);
-        size = larger(desc->variation * (farthest > 0 ? farthest : 1), size);
+        size = fmax(desc->variation * (farthest > 0 ? farthest : 1), size);
     }
-    if (!y->track || (solver->y_is_safe && size * SAFE_VALUE >= 1))
-        return larger(y->track ? 0 : fabs(y->value), size);
-    return larger(extent_size(extent_of(y->track, desc->samples)), size);
+    if (!y->track || (solver->y_is_safe && size * SAFE_VALUE >= 1)) return fmax(y->track ? 0 : fabs(y->value), size);
+    return fmax(extent_size(extent_of(y->track, desc->samples)), size);
 }
 
 double scale_for(double size)

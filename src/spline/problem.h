@@ -18,6 +18,9 @@
 /// Replaces a calm of 0 if the document is singular.
 #define FALLBACK_CALM 0.05
 
+/// Below this share of ω_n a wind-up takes no slope.
+#define SLOWEST_SLOPE 0.3
+
 /// Default cost of missing a slope, 1/s.
 #define USUAL_STIFFNESS 1000
 

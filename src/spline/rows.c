@@ -1,5 +1,5 @@
 /// The rows of a problem for the band (system.h), sample by sample: the jets of a cubic (eq. 6), of a spring (eq. 14, eq. 17) and of a complex
-/// spline (eq. 22) with their drive (eq. 25), and the slopes (eq. 9).
+/// spline (eq. 22) with their drive (eq. 25), and the slopes (eq. 9). And their squares.
 #include "maths/wide.h"
 #include "spline/problem.h"
 #include <float.h>
@@ -164,20 +164,31 @@ static sides sides_of(const problem *p, int k)
                    .tied = last && p->desc->mode == WIGGLY_COMPLEX};
 }
 
-/// The oscillator's slope: a speed seen from both sides, or from one at an end.
-static slope_row oscillator_slope(const problem *p, int k, double slope, double stiffness)
+slope_row problem_slope(const problem *p, int sample, double slope, double stiffness)
 {
-    const wiggly_desc *desc = p->desc;
+    const int k = sample - p->first, samples = p->desc->samples;
+    const double h = p->desc->step;
+    if (!problem_oscillates(p)) { // the paper's slope (eq. 9): a difference of the total
+        const bool last = p->start != WIGGLY_LOOP && k == p->count - 1;
+        const double from = about_at(p, last ? k - 1 : k), to = about_at(p, last ? k : k + 1);
+        return (slope_row){.sample = k,
+                           .ahead.re = last ? 0 : 1,
+                           .behind.re = last ? 1 : 0,
+                           .weight = fmin(stiffness * h, STIFFEST),
+                           .target = h * slope - (to - from),
+                           .target_error = 2 * DBL_EPSILON * (fabs(h * slope) + fabs(to - from))};
+    }
+
+    // The oscillator's: a speed seen from both sides, or from one at an end.
     const sides from = sides_of(p, k);
     const int count = from.ahead + from.behind;
-    double h = desc->step, known = p->response.speed ? p->response.speed[p->first + k] : 0;
+    const double known = p->response.speed ? p->response.speed[sample] : 0;
     slope_row row = {.sample = k, .target = h * (slope - known), .weight = stiffness * h};
     if (!from.tied) {
         if (count == 0) return (slope_row){.sample = k};
         row.weight /= 1 + row.weight / (2 * count);
-        const int j = p->first + k;
-        if (count == 1 && p->y && !p->about && j > 0 && j + 1 < desc->samples) { // a cubic's total bends with y
-            const double bend = 0.5 * ((p->y[j + 1] - p->y[j]) - (p->y[j] - p->y[j - 1]));
+        if (count == 1 && p->y && !p->about && sample > 0 && sample + 1 < samples) { // a cubic's total bends with y
+            const double bend = 0.5 * ((p->y[sample + 1] - p->y[sample]) - (p->y[sample] - p->y[sample - 1]));
             row.target += k == 0 ? bend : -bend;
         }
     }
@@ -186,51 +197,28 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
     return row;
 }
 
-/// The speed by the poles from both sides, or from one at an end; on the tail, the tail's speed.
-static void see_speed(const problem *p, slope_row *row)
-{
-    const double h = p->desc->step;
-    const sides from = sides_of(p, row->sample);
-    if (from.tied) {
-        poles own = poles_at(p->desc, p->latest, 0);
-        row->here = cplx_scale(h, poles_passive(&own));
-        row->loss.x = 8 * DBL_EPSILON * cplx_size(row->here);
-        return;
-    }
-    poles at = poles_at(p->desc, p->first + row->sample, problem_least_damping(p));
-    const double part = 1.0 / (from.ahead + from.behind);
-    speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
-    row->loss.cut = forward.loss.cut || backward.loss.cut;
-    row->loss.x = part * (from.ahead * forward.loss.x + from.behind * backward.loss.x);
-    row->loss.e = part * fmax(forward.loss.e, backward.loss.e);
-    if (from.ahead) row->here = cplx_scale(part, forward.on_x), row->ahead = cplx_scale(part, forward.on_e);
-    if (from.behind) {
-        row->here = cplx_add(row->here, cplx_scale(part, backward.on_x));
-        row->behind = cplx_scale(part, backward.on_e);
-    }
-}
-
-slope_row problem_slope(const problem *p, int sample, double slope, double stiffness)
-{
-    const int k = sample - p->first;
-    if (problem_oscillates(p)) return oscillator_slope(p, k, slope, stiffness);
-
-    // The paper's slope (eq. 9): a difference of the total.
-    bool last = p->start != WIGGLY_LOOP && k == p->count - 1;
-    double h = p->desc->step, from = about_at(p, last ? k - 1 : k), to = about_at(p, last ? k : k + 1);
-    return (slope_row){.sample = k,
-                       .ahead.re = last ? 0 : 1,
-                       .behind.re = last ? 1 : 0,
-                       .weight = fmin(stiffness * h, STIFFEST),
-                       .target = h * slope - (to - from),
-                       .target_error = 2 * DBL_EPSILON * (fabs(h * slope) + fabs(to - from))};
-}
-
+/// Adds a slope. An oscillator's speed is that by the poles from both sides, or from one at an end; on the tail, the tail's.
 static void add_slope(system_rows *rows, const problem *p, int sample, double slope, double stiffness)
 {
     slope_row row = problem_slope(p, sample, slope, stiffness);
     if (!(row.weight > 0)) return;
-    if (problem_oscillates(p)) see_speed(p, &row);
+    const double h = p->desc->step;
+    const sides from = sides_of(p, row.sample);
+    if (problem_oscillates(p) && from.tied) {
+        const poles own = poles_at(p->desc, p->latest, 0);
+        row.here = cplx_scale(h, poles_passive(&own));
+        row.loss.x = 8 * DBL_EPSILON * cplx_size(row.here);
+    } else if (problem_oscillates(p)) {
+        const poles at = poles_at(p->desc, sample, problem_least_damping(p));
+        const double part = 1.0 / (from.ahead + from.behind);
+        const speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
+        row.loss.cut = forward.loss.cut || backward.loss.cut;
+        row.loss.x = part * (from.ahead * forward.loss.x + from.behind * backward.loss.x);
+        row.loss.e = part * fmax(forward.loss.e, backward.loss.e);
+        if (from.ahead) row.here = cplx_scale(part, forward.on_x), row.ahead = cplx_scale(part, forward.on_e);
+        if (from.behind) row.here = cplx_add(row.here, cplx_scale(part, backward.on_x));
+        if (from.behind) row.behind = cplx_scale(part, backward.on_e);
+    }
     rows->slopes[rows->slope_count++] = row;
 }
 
@@ -260,24 +248,6 @@ static void set_knot(system_rows *rows, const problem *p, const wiggly_knot *kno
         rows->x[2 * k + 1] = problem_knot_im(p, knot);
     }
     if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot_stiffness(knot));
-}
-
-/// The last knot's jet, counted twice, with the free motion after it.
-static void set_tail(system_rows *rows, const problem *p)
-{
-    rows->tail = (cplx){0, 0};
-    rows->tail_loss = 0;
-    if (!p->settles) return;
-    rows->jet_to = rows->count - 1;
-    if (rows->count > 1) rows->fixed[rows->count - 1] |= JET_TWICE;
-    if (rows->count == 1) rows->jet_to = -1;
-    if (p->desc->mode != WIGGLY_COMPLEX) return;
-    poles own = poles_at(p->desc, p->latest, 0);
-    speed_form ahead = poles_speed(&own, p->desc->step, false);
-    rows->tail = poles_tail(poles_passive(&own), &ahead, p->desc->step);
-    const double size = cplx_size(ahead.on_e),
-                 moved = 8 * DBL_EPSILON * cplx_size(poles_passive(&own)) * p->desc->step;
-    rows->tail_loss = (moved + ahead.loss.x + cplx_size(rows->tail) * ahead.loss.e) / size;
 }
 
 double problem_noise(const problem *p)
@@ -319,7 +289,19 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
     memset(rows->fixed, rows->is_complex ? 0 : FIXED_IM, (size_t)rows->count);
     set_filter(solver, p);
-    set_tail(rows, p);
+    rows->tail = (cplx){0, 0};
+    rows->tail_loss = 0;
+    if (p->settles) { // the last knot's jet, counted twice, with the free motion after it
+        rows->jet_to = rows->count > 1 ? rows->count - 1 : -1;
+        if (rows->count > 1) rows->fixed[rows->count - 1] |= JET_TWICE;
+    }
+    if (p->settles && p->desc->mode == WIGGLY_COMPLEX) {
+        const poles own = poles_at(p->desc, p->latest, 0);
+        const speed_form ahead = poles_speed(&own, p->desc->step, false);
+        const double moved = 8 * DBL_EPSILON * cplx_size(poles_passive(&own)) * p->desc->step;
+        rows->tail = poles_tail(poles_passive(&own), &ahead, p->desc->step);
+        rows->tail_loss = (moved + ahead.loss.x + cplx_size(rows->tail) * ahead.loss.e) / cplx_size(ahead.on_e);
+    }
     rows->slope_count = 0;
     if (p->start == WIGGLY_REST) { // w_0 is 0, and the filter's w_1, too; the oscillator's costs a jet
         rows->fixed[0] = FIXED_RE | FIXED_IM;
@@ -337,4 +319,152 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->unknown = rows->unknown || !(p->response.error < INFINITY);
     const bool slips = p->thorough && rows->response > 0 && p->still < 0; // a still knot holds w, and not the total
     rows->slip = slips ? forced_response_slip(p->desc, &p->response, rows) : INFINITY;
+}
+
+// --- the rows squared into the band (the normal equations of eq. 6, 9 and 25)
+//
+// Rᵀ W R from the rows, block by block. With A_i = 2 + m_i and B_i = 1 + m_i + p_i the jet row i is
+// (B_i, −A_i, 1) on x_{i−1}, x_i, x_{i+1}, so that
+//
+//     D_k = |A_k|² + |B_{k+1}|² + 1        E_k = −A_k − A_{k+1}* B_{k+1}        F_k = B_{k+1}
+//
+// of weighted rows. With constant poles all samples share one block; only those beside an end, a slope or a still knot have their own.
+
+jet_row system_jet(const system_rows *rows, int i)
+{
+    const coefficients at = system_coefficients(rows, i);
+    const cplx a = coefficients_a(&at);
+    jet_row row = {.own = {-a.re, -a.im}, .before = coefficients_b(&at)};
+    if (rows->fixed[i] & FIXED_STILL) {
+        row.own.re += 1;
+    } else if (!rows->loop && i == rows->count - 1) {
+        row.own = cplx_add(row.own, (cplx){1 + rows->tail.re, rows->tail.im});
+    }
+    if (i < rows->jet_from || i > rows->jet_to) return row;
+    row.weight = rows->is_constant ? 1 : rows->jet_weight[i];
+    if (rows->fixed[i] & JET_TWICE) row.weight *= 2;
+    return row;
+}
+
+static void put_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2] += z.im, at[3] += z.re; }
+
+/// The jets' part of the blocks of a sample and those beside it, from the rows around each.
+static void set_own_around(const system_rows *rows, band_matrix *m, int i)
+{
+    for (int by = -1; by <= 1; by++) {
+        const int k = system_beside(rows, i, by);
+        if (k < 0 || m->marks[k] & BAND_OWN) continue;
+        band_block *block = band_own(m, k);
+        const int next = system_beside(rows, k, 1), before = system_beside(rows, k, -1);
+        const jet_row own = system_jet(rows, k);
+        double d = own.weight * cplx_norm(own.own);
+        *block = (band_block){.d = {0}};
+        if (before >= 0) d += system_jet(rows, before).weight;
+        if (next >= 0) {
+            const jet_row after = system_jet(rows, next);
+            const bool ends = !rows->loop && next == rows->count - 1, still = rows->fixed[k] & FIXED_STILL;
+            d += after.weight * cplx_norm(after.before);
+            put_complex(block->e, cplx_scale(after.weight, cplx_mul(cplx_conj(after.own), after.before)));
+            put_complex(block->e, cplx_scale(own.weight, still ? (cplx){-1, 0} : own.own));
+            if (!ends && !(rows->fixed[next] & FIXED_STILL))
+                put_complex(block->f, cplx_scale(after.weight, after.before));
+        }
+        block->d[0] = block->d[2] = d;
+        if (rows->is_complex) block->d[2] += rows->is_constant ? rows->own_im : rows->im_weight[k];
+    }
+}
+
+stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
+{
+    const int k = slope->sample;
+    stencil s = {.at = {system_beside(rows, k, -1), k, system_beside(rows, k, 1)},
+                 .c = {cplx_scale(-1, slope->behind), cplx_add(slope->here, cplx_sub(slope->behind, slope->ahead)),
+                       slope->ahead}};
+    if (s.at[2] < 0) s.c[1] = cplx_add(s.c[1], cplx_mul(slope->ahead, (cplx){1 + rows->tail.re, rows->tail.im}));
+    return s;
+}
+
+/// Adds w (Re c z)² of a complex number z: c as the row (c.re, −c.im) of its parts.
+static void add_square(double *diagonal, double w, cplx c)
+{
+    diagonal[0] += w * (c.re * c.re), diagonal[1] -= w * (c.re * c.im), diagonal[2] += w * (c.im * c.im);
+}
+
+/// The blocks of varying rows, as if all around them were jets of the usual kind.
+WIDEST static void square(int count, const double *restrict mr, const double *restrict mi, const double *restrict pr,
+                          const double *restrict pi, const double *restrict w, double *restrict d,
+                          double *restrict e_re, double *restrict e_im, double *restrict f_re, double *restrict f_im)
+{
+    for (int k = 0; k < count; k++) {
+        const double a = 2 + mr[k], ai = mi[k];
+        const double c = 2 + mr[k + 1], ci = mi[k + 1], b = (c - 1) + pr[k + 1], bi = ci + pi[k + 1];
+        const double own = w[k], next = w[k + 1];
+        d[k] = own * (a * a + ai * ai) + next * (b * b + bi * bi) + (k > 0 ? w[k - 1] : 0);
+        f_re[k] = next * b, f_im[k] = next * bi;
+        e_re[k] = -(own * a + next * (c * b + ci * bi));
+        e_im[k] = -(own * ai + next * (c * bi - ci * b));
+    }
+}
+
+void system_matrix(const system_rows *rows, band_matrix *m)
+{
+    const int n = rows->count;
+    m->count = n;
+    m->is_complex = rows->is_complex;
+    m->cyclic = rows->loop;
+    m->is_alike = rows->is_constant;
+    m->is_kept = false;
+    m->marks = rows->fixed;
+    m->im_weight = rows->is_complex && !rows->is_constant ? rows->im_weight : NULL;
+    m->stiffness = NULL;
+    for (int k = 0; k < n; k++) rows->fixed[k] &= (unsigned char)~(BAND_OWN | BAND_BESIDE);
+    if (rows->is_constant) {
+        const cplx a = coefficients_a(&rows->own), b = coefficients_b(&rows->own);
+        m->alike = (band_block){.d = {0}};
+        m->alike.d[0] = m->alike.d[2] = cplx_norm(a) + cplx_norm(b) + 1;
+        put_complex(m->alike.e, cplx_scale(-1, cplx_add(a, cplx_mul(cplx_conj(a), b))));
+        put_complex(m->alike.f, b);
+        if (rows->is_complex) m->alike.d[2] += rows->own_im;
+    } else if (n > 1) {
+        square(n - 1, rows->m_re, rows->m_im, rows->p_re, rows->p_im, rows->jet_weight, m->d, m->e_re, m->e_im,
+               m->f_re, m->f_im);
+    }
+    for (int k = 0; k < n && !rows->loop; k++) { // the rows beside an end
+        if (k <= rows->jet_from || k >= rows->jet_to) set_own_around(rows, m, k);
+        if (k == rows->jet_from && k < rows->jet_to) k = rows->jet_to - 1;
+    }
+    const bool each = rows->fast && !rows->is_constant;
+    for (int k = 0; k < n; k++) {
+        if (each || rows->fixed[k] & (FIXED_STILL | JET_TWICE)) set_own_around(rows, m, k);
+    }
+    if (rows->loop && !rows->is_constant) set_own_around(rows, m, 0), set_own_around(rows, m, n - 1);
+    for (int r = 0; r < rows->slope_count; r++) { // the slopes (eq. 9)
+        const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
+        const double w = rows->slopes[r].weight;
+        for (int pair = 0; pair < 9; pair++) {
+            const int i = pair / 3, j = pair % 3;
+            if (j > i || s.at[i] < 0 || s.at[j] < 0) continue;
+            band_block *block = band_own(m, s.at[j]);
+            if (i == j) {
+                add_square(block->d, w, s.c[i]);
+            } else {
+                double *c = i - j == 2 ? block->f : block->e; // w (Re to·z')(Re from·z), rows z', columns z
+                const cplx to = s.c[i], from = s.c[j];
+                c[0] += w * (to.re * from.re), c[1] -= w * (to.re * from.im);
+                c[2] -= w * (to.im * from.re), c[3] += w * (to.im * from.im);
+            }
+        }
+    }
+    for (int i = 0; i < 2; i++) { // the start's rows
+        const struct start_row *row = &rows->start.row[i];
+        if (!(row->weight > 0)) continue;
+        const cplx on_x0 = system_start_on_x(rows, row);
+        band_block *block = band_own(m, 0);
+        const double first = row->weight * cplx_norm(on_x0), second = row->weight * cplx_norm(row->on_e);
+        block->d[0] += first, block->d[2] += first;
+        if (n == 1) continue;
+        put_complex(block->e, cplx_scale(row->weight, cplx_mul(cplx_conj(row->on_e), on_x0)));
+        block = band_own(m, 1);
+        block->d[0] += second, block->d[2] += second;
+    }
 }

@@ -17,8 +17,8 @@
 #include <float.h>
 #include <math.h>
 
-/// Where the oscillator hardly turns a slope says nothing of the phase: shares of ω_n from which it begins to, and to which it fades in.
-static const double slowest_slope = 0.3, slope_fade = 0.2;
+/// Where the oscillator hardly turns a slope says nothing of the phase: how far from SLOWEST_SLOPE it fades in.
+static const double slope_fade = 0.2;
 
 static const double turn_of_period = 6.28318530717958647692;
 
@@ -46,7 +46,7 @@ double problem_reach(const wiggly_desc *desc, const poles *at)
 
 static double fade_of(const poles *at)
 {
-    const double share = at->natural > 0 ? (at->centre / at->natural - slowest_slope) / slope_fade : 0;
+    const double share = at->natural > 0 ? (at->centre / at->natural - SLOWEST_SLOPE) / slope_fade : 0;
     const double v = fmin(fmax(share, 0), 1);
     return v * v * (3 - 2 * v);
 }
@@ -331,26 +331,6 @@ static bool are_kept(const wiggly_solver *solver, const problem *p, const course
     return true;
 }
 
-static void set_gaps(wiggly_solver *solver, const problem *p, const course *c)
-{
-    wind_memory *m = &solver->wind;
-    const wind_gap *like = NULL;
-    wind_push *push = m->push;
-    set_filter(solver, p);
-    if (m->is_constant && are_kept(solver, p, c)) return;
-    for (int n = 0, from = c->first; n < c->gaps; n++) {
-        wind_gap *g = &m->gap[n];
-        set_gap(solver, p, from, end_of(solver, p, c, n), like, push, g);
-        if (g->push == push) push += g->end - g->begin;
-        if (!like && !g->is_cut) like = g;
-        from = g->end;
-    }
-    m->is_kept = m->is_constant;
-    m->desc = desc_settings(p->desc);
-    m->floor = problem_least_damping(p);
-    m->count = c->gaps;
-}
-
 /// w at a free start's knot. A slope there gives the phase of a swing with that speed, unless the swing is slow against the gap.
 static cplx start_of(const wiggly_solver *solver, const problem *p)
 {
@@ -404,7 +384,23 @@ void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *c
     const bool rests = p->start == WIGGLY_REST;
     const course c = {
         .first = rests ? 0 : p->earliest, .gaps = knots - (loops || rests ? 0 : 1), .skipped = rests ? 0 : 1};
-    set_gaps(solver, p, &c);
+    wind_memory *m = &solver->wind;
+    set_filter(solver, p);
+    if (!m->is_constant || !are_kept(solver, p, &c)) {
+        const wind_gap *like = NULL;
+        wind_push *push = m->push;
+        for (int n = 0, from = c.first; n < c.gaps; n++) {
+            wind_gap *g = &m->gap[n];
+            set_gap(solver, p, from, end_of(solver, p, &c, n), like, push, g);
+            if (g->push == push) push += g->end - g->begin;
+            if (!like && !g->is_cut) like = g;
+            from = g->end;
+        }
+        m->is_kept = m->is_constant;
+        m->desc = desc_settings(p->desc);
+        m->floor = problem_least_damping(p);
+        m->count = c.gaps;
+    }
     double off = 0;
     cplx w = loops ? close_round(solver, p, &off) : rests ? (cplx){0, 0} : start_of(solver, p);
     const cplx first = w;
