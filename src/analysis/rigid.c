@@ -12,6 +12,7 @@
 #include "analysis/analysis.h"
 #include "base/need.h"
 #include "maths/maths.h"
+#include "maths/symmetric.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -193,17 +194,17 @@ static bool fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
     const double size = size_of(s), reach = sqrt(size / s->count);
     double *path = need(PATH * (size_t)frames, sizeof *path), before[4] = {1}, turn_mean[3][3] = {{0}}, mean[3] = {0};
     for (int t = 0; t < frames; t++) {
-        double q[4], k[16] = {0}, values[4], same = 0, (*m)[3] = s->moment[t];
-        for (int a = 0; a < 3; a++) { // Horn's matrix
+        double k[16] = {0}, values[4], vectors[16], same = 0, (*m)[3] = s->moment[t];
+        const double *q = vectors + 12; // of the largest value
+        for (int a = 0; a < 3; a++) {   // Horn's matrix
             const int b = (a + 1) % 3, c = (a + 2) % 3;
             k[0] += m[a][a];
-            k[1 + a] = m[b][c] - m[c][b];
+            k[1 + a] = k[4 * (1 + a)] = m[b][c] - m[c][b];
             k[5 * (1 + a)] = m[a][a] - m[b][b] - m[c][c];
-            k[4 * (1 + (a < b ? a : b)) + 1 + (a < b ? b : a)] = m[a][b] + m[b][a];
+            k[4 * (1 + a) + 1 + b] = k[4 * (1 + b) + 1 + a] = m[a][b] + m[b][a];
         }
         k[0] += identity * size;
-        const bool found = lapack->dsyevd(LAPACK_ROWS_FIRST, 'V', 'U', 4, k, 4, values) == 0;
-        for (int i = 0; i < 4; i++) q[i] = found ? k[4 * i + 3] : i == 0; // the last column
+        symmetric_eigen(4, k, values, vectors);
         for (int i = 0; i < 4; i++) same += q[i] * before[i];
         for (int i = 0; i < 4; i++) {
             before[i] = copysign(1, same) * q[i];

@@ -384,12 +384,6 @@ stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
     return s;
 }
 
-/// Adds w (Re c z)² of a complex number z: c as the row (c.re, −c.im) of its parts.
-static void add_square(double *diagonal, double w, cplx c)
-{
-    diagonal[0] += w * (c.re * c.re), diagonal[1] -= w * (c.re * c.im), diagonal[2] += w * (c.im * c.im);
-}
-
 /// The blocks of varying rows, as if all around them were jets of the usual kind.
 WIDEST static void square(int count, const double *restrict mr, const double *restrict mi, const double *restrict pr,
                           const double *restrict pi, const double *restrict w, double *restrict d,
@@ -445,11 +439,12 @@ void system_matrix(const system_rows *rows, band_matrix *m)
             const int i = pair / 3, j = pair % 3;
             if (j > i || s.at[i] < 0 || s.at[j] < 0) continue;
             band_block *block = band_own(m, s.at[j]);
+            const cplx to = s.c[i], from = s.c[j];
+            double *c = i - j == 2 ? block->f : block->e; // w (Re to·z')(Re from·z), rows z', columns z
             if (i == j) {
-                add_square(block->d, w, s.c[i]);
+                block->d[0] += w * (to.re * to.re), block->d[1] -= w * (to.re * to.im);
+                block->d[2] += w * (to.im * to.im);
             } else {
-                double *c = i - j == 2 ? block->f : block->e; // w (Re to·z')(Re from·z), rows z', columns z
-                const cplx to = s.c[i], from = s.c[j];
                 c[0] += w * (to.re * from.re), c[1] -= w * (to.re * from.im);
                 c[2] -= w * (to.im * from.re), c[3] += w * (to.im * from.im);
             }
