@@ -693,7 +693,6 @@ bool editor_target(struct editor *editor, const char *text, float *x, float *y, 
             if (found) target.pin = &rig->pins[(int)k];
         } else {
             found &= rig->kind == thing->rig;
-            target.nth += !found && rig->kind == thing->rig;
         }
         target.rig += !found;
     }

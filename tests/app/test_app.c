@@ -72,7 +72,7 @@ static bool covers_a_character(const struct editor *editor, struct rect card)
 {
     for (int i = 0; i <= STEPS * STEPS; i++) {
         struct target target = {.number = {i % STEPS / (double)STEPS, i / STEPS / (double)STEPS}};
-        for (target.nth = 0; target.nth < 2; target.nth++) {
+        for (target.rig = 0; target.rig < editor->core.document->rig_count; target.rig++) {
             float xy[2];
             if (find_character(editor->stage, &editor->core, &target, xy) && rect_contains(card, xy[0], xy[1]))
                 return true;

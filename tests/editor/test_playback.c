@@ -137,11 +137,10 @@ static float highest(struct session *s)
         const float *base = stage->strands[t].pose.matrix[0] + 12;
         const float ears[3] = {base[0], base[1] + 0.8f, base[2] - 0.4f};
         float xy[2];
-        assert_true(stage_project_point(s->editor->stage, layout_of(s->editor)->stage, ears, xy));
+        assert_true(stage_project_point(s->editor->stage, ears, xy));
         y = fminf(y, xy[1]);
         for (int n = 0; n < stage->strands[t].pose.count; n++) {
-            stage_project_point(s->editor->stage, layout_of(s->editor)->stage, stage->strands[t].pose.matrix[n] + 12,
-                                xy);
+            stage_project_point(s->editor->stage, stage->strands[t].pose.matrix[n] + 12, xy);
             y = fminf(y, xy[1]);
         }
     }

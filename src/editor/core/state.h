@@ -88,7 +88,7 @@ struct target {
     double number[2]; ///< follow the last commas
     int spline;
     const struct knot *knot;
-    int rig, nth; ///< index among all rigs; among its kind
+    int rig;
     const struct pin *pin;
 };
 

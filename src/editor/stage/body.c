@@ -16,6 +16,7 @@
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +32,13 @@ static struct tail *tail_of(const struct document *document, int rig)
     return is_tail ? &document->rigs[rig]->tail : NULL;
 }
 
+/// How far the current drag has moved a rig, in metres; 0 unless it is on the held body.
+static void body_drag_offset(const struct stage *stage, int rig, double offset[3])
+{
+    const bool held = body_is_held(stage->core) && rig_body(stage->core->document, rig) == stage->body_drag.rig;
+    for (int k = 0; k < 3; k++) offset[k] = held ? stage->body_drag.offset[k] : 0;
+}
+
 // Follow-through, which is not part of the document's solution but added to it.
 
 /// Index of a rig's swing; id 0 finds a free one; −1: none.
@@ -41,7 +49,8 @@ static int find_inertia(const struct stage *stage, unsigned id)
     return i;
 }
 
-void drag_inertia_advance(struct stage *stage, const struct core *core, double dt)
+/// Bases follow body_drag_offset(), their tails and chains swing.
+static void drag_inertia_advance(struct stage *stage, const struct core *core, double dt)
 {
     const struct document *document = core->document;
     const struct posing posing = stage_posing(core);
@@ -53,7 +62,7 @@ void drag_inertia_advance(struct stage *stage, const struct core *core, double d
         double offset[3], kick[3];
         bool moves = false;
         if (document->rigs[r]->kind != RIG_TAIL && document->rigs[r]->kind != RIG_CHAIN) continue;
-        body_drag_offset(stage, core, r, offset);
+        body_drag_offset(stage, r, offset);
         int at = find_inertia(stage, id);
         if (at < 0 && (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)) at = find_inertia(stage, 0);
         if (at < 0) continue;
@@ -109,12 +118,6 @@ void drag_inertia_stop(struct stage *stage, const struct document *document, int
     }
 }
 
-static double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel)
-{
-    const int at = find_inertia(stage, document->rigs[rig]->id);
-    return at >= 0 ? stage->inertia[at].scale[channel] : 0;
-}
-
 bool stage_is_moving(const struct stage *stage)
 {
     for (int i = 0; i < STAGE_MAX_STRANDS; i++) {
@@ -123,22 +126,40 @@ bool stage_is_moving(const struct stage *stage)
     return false;
 }
 
-void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
-                      wiggly_value values[RIG_MAX_INPUTS])
+static void move_by_hand(const void *context, int rig, struct by_hand *hand)
 {
-    const int at = find_inertia(stage, document->rigs[rig]->id);
+    const struct stage *stage = context;
+    double offset[3];
+    body_drag_offset(stage, rig, offset);
+    for (int k = 0; k < 3; k++) hand->base[k] += offset[k];
+    const int at = find_inertia(stage, stage->core->document->rigs[rig]->id);
     const struct drag_inertia *inertia = &stage->inertia[at < 0 ? 0 : at];
     for (int c = 0; at >= 0 && inertia->swings && c < SCENE_MAX_CHANNELS; c++) {
-        values[c].re += inertia->scale[c] * inertia->channel[c].x[0];
-        values[c].im += inertia->scale[c] * inertia->channel[c].x[1];
+        hand->input[c].re += inertia->scale[c] * inertia->channel[c].x[0];
+        hand->input[c].im += inertia->scale[c] * inertia->channel[c].x[1];
     }
+}
+
+struct posing stage_posing_by_hand(const struct stage *stage)
+{
+    const struct take *take = &stage->core->take;
+    struct posing posing = stage_posing(stage->core);
+    if (take_is_posed(stage->core)) {
+        posing.document = take->document;
+        posing.evaluation = &take->evaluation;
+        posing.look = take->look;
+    }
+    posing.move = move_by_hand;
+    posing.context = stage;
+    return posing;
 }
 
 // Splines that move a body, and channels that let its tail follow through.
 
 enum { NAME_SIZE = 300 };
 
-static const double RESOLUTION = 1e-3; ///< metres; values are rounded to this
+static const double RECORD_STIFFNESS = 1e5; ///< 1/s; the body stands still at both ends of its path
+static const double RESOLUTION = 1e-3;      ///< metres; values are rounded to this
 static const double LEAST_SHARE = 0.05;
 static const double MAIN_SHARE = 0.5; ///< least component of a coordinate along an axis' bending direction
 
@@ -195,15 +216,6 @@ static double base_value(const struct core *core, int rig, int coordinate, int s
     return coordinate == 1 ? moved->length * (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) : param->value;
 }
 
-/// Makes the coordinate follow the spline.
-static void coordinate_follow(const struct stage *stage, struct core *core, int coordinate, int base)
-{
-    const int rig = stage->body_drag.rig;
-    struct rig moved = *core->document->rigs[rig];
-    moved.tail.position[coordinate] = param_track(base);
-    edit_rig_set(core->document, rig, &moved, &core->step.error);
-}
-
 static void equilibrium_follow(struct core *core, int spline, int base)
 {
     const struct param param = param_track(base);
@@ -220,7 +232,6 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
     const int spline = document->spline_count - 1;
     const struct spline *copied = document->splines[model->spline];
     const bool loops = spline_start(copied) == WIGGLY_LOOP;
-    core_set_parameter(core, spline, PARAMETER_MODE, spline_mode(copied));
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         if (p != PARAMETER_EQUILIBRIUM && p != PARAMETER_START)
             edit_parameter(document, spline, p, &copied->parameter[p], &core->step.error);
@@ -228,86 +239,89 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
     core_set_parameter(core, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
     equilibrium_follow(core, spline, base);
 
-    struct angles gain = model->gain;
-    const struct angles lag = model->lag;
-    for (int i = 0; i < angles_count(&gain); i++)
-        angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
+    struct channel channel = {spline, model->axis, PART_DISPLACEMENT, model->lag, model->gain, NULL};
+    for (int i = 0; i < angles_count(&channel.gain); i++)
+        angles_set_number(&channel.gain, i, round(angles_number(&channel.gain, i) * scale * 1e4) / 1e4);
     const int rig = stage->body_drag.rig;
-    if (!edit_channel_add(document, rig, spline, model->axis, PART_DISPLACEMENT, &core->step.error)) return -1;
+    if (!edit_channel_add(document, rig, spline, channel.axis, channel.of, &core->step.error)) return -1;
     const struct channel_place added = {rig, document->rigs[rig]->tail.channel_count - 1};
-    edit_angles(document, added, ANGLE_LAG, &lag, &core->step.error);
-    edit_angles(document, added, ANGLE_GAIN, &gain, &core->step.error);
+    edit_channel(document, added, &channel, &core->step.error);
     return spline;
 }
 
-/// Makes the channels that swing with a coordinate follow its spline. A tail that bends mainly along the coordinate gets a channel about
-/// that axis, if it has none. Returns the new spline, or -1.
-static int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base)
+/// Makes a coordinate, and the channels that swing with it, follow its spline. A tail that bends mainly along the coordinate gets a channel
+/// about that axis, if it has none: then `made` receives that channel's new spline.
+static void base_follow(const struct stage *stage, struct core *core, int coordinate, int base, int *made)
 {
-    const int rig = stage->body_drag.rig, count = tail_of(core->document, rig)->channel_count;
+    struct document *document = core->document;
+    const int rig = stage->body_drag.rig, count = tail_of(document, rig)->channel_count;
     const struct posing posing = stage_posing(core);
+    struct rig moved = *document->rigs[rig];
+    struct swing_arm arm = {.joints = 0};
     char name[NAME_SIZE];
+    moved.tail.position[coordinate] = param_track(base);
+    edit_rig_set(document, rig, &moved, &core->step.error);
+    const int swings = find_inertia(stage, document->rigs[rig]->id);
+    if (swings < 0) return;
+    const double *scale = stage->inertia[swings].scale;
+    swing_arm(&posing, rig, &arm);
     for (int c = 0; c < count; c++) {
-        const struct tail *tail = tail_of(core->document, rig);
-        const struct channel channel = tail->channels[c];
-        const struct param *equilibrium = &core->document->splines[channel.spline]->parameter[PARAMETER_EQUILIBRIUM];
-        double direction[3], scale = drag_inertia_scale(stage, core->document, rig, c);
-        struct swing_arm arm = {.joints = 0};
-        swing_arm(&posing, rig, &arm);
+        const struct channel channel = tail_of(document, rig)->channels[c];
+        const struct spline *spline = document->splines[channel.spline];
+        double direction[3];
         swing_direction(&arm, channel.axis, direction);
-        bool swung = stage->body_drag.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
-        if (!swung) continue;
+        if (!stage->body_drag.hangs[c] || fabs(direction[coordinate]) <= LEAST_SHARE || scale[c] == 0) continue;
         if (channel.of == PART_TOTAL) {
-            snprintf(name, sizeof name, "%.*s follow", name_fit(core->document->splines[channel.spline]->name, 280),
-                     core->document->splines[channel.spline]->name);
-            add_channel(stage, core, &channel, name, scale * direction[coordinate], base);
-        } else if (!param_follows(equilibrium)) {
+            snprintf(name, sizeof name, "%.*s follow", name_fit(spline->name, 280), spline->name);
+            add_channel(stage, core, &channel, name, scale[c] * direction[coordinate], base);
+        } else if (!param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM])) {
             equilibrium_follow(core, channel.spline, base);
         }
     }
 
-    const struct tail *tail = tail_of(core->document, rig);
-    struct swing_arm arm = {.joints = 0};
-    swing_arm(&posing, rig, &arm);
+    const struct tail *tail = tail_of(document, rig);
     const bool up = fabs(arm.direction[AXIS_UP][coordinate]) > fabs(arm.direction[AXIS_SIDE][coordinate]);
     const enum axis axis = up ? AXIS_UP : AXIS_SIDE;
     const double share = arm.direction[axis][coordinate];
     bool missing = fabs(share) >= MAIN_SHARE;
     for (int c = 0; c < tail->channel_count; c++) missing &= tail->channels[c].axis != axis;
-    snprintf(name, sizeof name, "%.*s %s", name_fit(rig_title(core->document->rigs[rig]), 250),
-             rig_title(core->document->rigs[rig]), axis_word(axis));
+    snprintf(name, sizeof name, "%.*s %s", name_fit(rig_title(document->rigs[rig]), 250),
+             rig_title(document->rigs[rig]), axis_word(axis));
     for (int c = 0; missing && c < tail->channel_count; c++) {
         struct channel model = tail->channels[c];
-        const double scale = drag_inertia_scale(stage, core->document, rig, c);
-        if (!axis_bends(model.axis) || !stage->body_drag.hangs[c] || scale == 0) continue;
+        if (!axis_bends(model.axis) || !stage->body_drag.hangs[c] || scale[c] == 0) continue;
         model.axis = axis;
-        return add_channel(stage, core, &model, name, scale * share, base);
+        *made = add_channel(stage, core, &model, name, scale[c] * share, base);
+        return;
     }
-    return -1;
 }
 
-/// Adds a sentence about the new spline to a message; nothing for -1.
-static void base_say_channel(const struct core *core, int spline, char *text, size_t size)
+enum { REPORT_SIZE = 768 }; ///< of the message after a drag
+
+/// Adds to it.
+static __attribute__((format(printf, 2, 3))) void say(char report[REPORT_SIZE], const char *format, ...)
 {
+    const size_t length = strlen(report);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(report + length, REPORT_SIZE - length, format, arguments);
+    va_end(arguments);
+}
+
+/// Ends the message with what stopped an edit, and a sentence about the new spline (-1: none).
+static void say_rest(const struct core *core, const char *why, int spline, char report[REPORT_SIZE])
+{
+    core_add_stopped(why, report, REPORT_SIZE);
     if (spline < 0) return;
     const struct spline *made = core->document->splines[spline];
     const int base = made->parameter[PARAMETER_EQUILIBRIUM].track;
-    const size_t length = strlen(text);
-    snprintf(text + length, size - length, " New spline %s: the tail swings after %s.", made->name,
-             base >= 0 ? core->document->splines[base]->name : "it");
+    say(report, " New spline %s: the tail swings after %s.", made->name,
+        base >= 0 ? core->document->splines[base]->name : "it");
 }
 
 // A recording: a place per sample, and knots fitted to them.
 
 enum { AXIS_X, AXIS_Y, AXIS_Z };
-
-/// Movement along one ground axis that keeps the body under the pointer, from the axis' direction on the screen.
-static double along_axis(const struct body_drag *hold, const double axis[2], double dx, double dy)
-{
-    double across = axis[0] * hold->right[0] + axis[1] * hold->right[1];
-    double away = (axis[0] * hold->right[1] - axis[1] * hold->right[0]) * hold->pitch;
-    return stage_along(across, away, dx, dy) / hold->pixels_per_metre;
-}
 
 /// The pointer's movement of the held body in metres, before limits; 0 if none is held.
 static void body_drag_way(const struct stage *stage, const struct core *core, double offset[3])
@@ -316,17 +330,16 @@ static void body_drag_way(const struct stage *stage, const struct core *core, do
     const struct body_drag *hold = &stage->body_drag;
     offset[0] = offset[1] = offset[2] = 0;
     if (!body_is_held(core) || !drag->moved) return;
-    const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
-    const double across = drag->moved_x / hold->pixels_per_metre;
+    const double *right = hold->right, across = drag->moved_x / hold->pixels_per_metre;
     const double up = -drag->moved_y / hold->pixels_per_metre;
     const double away = hold->lifts ? 0 : up / hold->pitch;
-    if (hold->axis == AXIS_X) {
-        offset[0] = along_axis(hold, x_axis, drag->moved_x, drag->moved_y);
+    if (hold->axis == AXIS_X) { // the body stays under the pointer along the axis, as that runs on the screen
+        offset[0] = stage_along(right[0], right[1] * hold->pitch, drag) / hold->pixels_per_metre;
     } else if (hold->axis == AXIS_Z) {
-        offset[2] = along_axis(hold, z_axis, drag->moved_x, drag->moved_y);
+        offset[2] = stage_along(right[1], -right[0] * hold->pitch, drag) / hold->pixels_per_metre;
     } else if (hold->axis != AXIS_Y) {
-        offset[0] = across * hold->right[0] + away * hold->right[1];
-        offset[2] = across * hold->right[1] - away * hold->right[0];
+        offset[0] = across * right[0] + away * right[1];
+        offset[2] = across * right[1] - away * right[0];
     }
     if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
 }
@@ -341,7 +354,8 @@ static void record_begin(struct stage *stage, struct core *core)
     core_message(core, false, "Recording the body: release to keep it.");
 }
 
-void record_advance(struct stage *stage, const struct core *core)
+/// Records the body's place up to the playhead; stops at the end of the played range.
+static void record_advance(struct stage *stage, const struct core *core)
 {
     struct record *record = &stage->record;
     if (!record->running || !body_is_held(core)) return;
@@ -446,9 +460,7 @@ static int key_way(const struct stage *stage, struct core *core, int coordinate,
         if (record->first > 1) base_put_knot(core, spline, 0, way[0], true, why);
         if (record->first + count < last) base_put_knot(core, spline, last, way[count - 1], true, why);
     }
-    if (is_new) coordinate_follow(stage, core, coordinate, spline);
-    const int hung = base_hang_channels(stage, core, coordinate, spline);
-    if (hung >= 0) *swings = hung;
+    base_follow(stage, core, coordinate, spline, swings);
     core_edited(core, spline);
     return made;
 }
@@ -473,52 +485,7 @@ static void show_sign(struct core *core, bool runs, const char *text)
                   theme()->error, text);
 }
 
-void record_show(struct stage *stage, struct core *core)
-{
-    const struct document *document = core->document;
-    const struct record *record = &stage->record;
-    const bool is_held = body_is_held(core);
-    const int rig = is_held ? stage->body_drag.rig : core->input.hover.rig;
-    const struct tail *shown = is_held || core->input.hover.thing == &thing_body ? tail_of(document, rig) : NULL;
-    bool moves = false;
-    for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
-    if (moves && !core->view.on[SWITCH_TRAIL])
-        path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
-    if (!is_held || !record->running) {
-        if (core->view.on[SWITCH_RECORD] && document_tail(document, 0))
-            show_sign(core, false, "Drag the body to record it");
-        return;
-    }
-
-    // The recorded path, with the base's place at each sample.
-    const int step = record->count / MAX_POINTS + 1;
-    float points[MAX_POINTS][2];
-    int count = 0;
-    bool seen = true;
-    for (int i = 0; i < record->count && seen; i += step) {
-        float place[3];
-        for (int k = 0; k < 3; k++) {
-            const struct param *param = &tail_of(document, rig)->position[k];
-            const double value = param->track >= 0 ? base_value(core, rig, k, record->first + i) : param->value;
-            place[k] = (float)(value + record->way[k][i]);
-        }
-        seen = stage_project_point(stage, core->view.layout.stage, place, points[count++]);
-    }
-    if (seen && count > 1) drawlist_line(&core->list, (const float *)points, count, 2, theme()->error);
-    char text[32];
-    snprintf(text, sizeof text, "REC %.1f s", record->count / (document->fps * document->substeps));
-    show_sign(core, true, text);
-}
-
 // The drag.
-
-enum { REPORT_SIZE = 512 }; ///< of the message after a drag
-
-static void say_part(char report[REPORT_SIZE], const char *text)
-{
-    const size_t length = strlen(report);
-    snprintf(report + length, REPORT_SIZE - length, "%s", text);
-}
 
 /// The playhead's sample, clamped to where the spline may have knots.
 static int sample_of(const struct core *core, int spline)
@@ -594,10 +561,8 @@ static void place_body(struct stage *stage, struct core *core)
     bool any = false;
     int swings = -1;
     if (keys) base_begin(stage, core);
-    say_part(report, keys ? "Keyed " : "Moved for the whole shot: ");
+    say(report, keys ? "Keyed " : "Moved for the whole shot: ");
     for (int k = 0; k < 3; k++) {
-        char part[32];
-        const char *name = part;
         if (offset[k] == 0) continue;
         if (keys) {
             // A fixed coordinate gets a spline that starts at the body's place.
@@ -609,9 +574,7 @@ static void place_body(struct stage *stage, struct core *core)
             if (is_new) {
                 if (sample > 1) base_put_knot(core, spline, 0, before, true, why);
                 base_put_knot(core, spline, sample, before + offset[k], true, why);
-                coordinate_follow(stage, core, k, spline);
-                const int hung = base_hang_channels(stage, core, k, spline);
-                if (hung >= 0) swings = hung;
+                base_follow(stage, core, k, spline, &swings);
             } else {
                 struct knot knot = core_knot_at(core->document, spline, sample);
                 knot.value = core_round(before + offset[k], RESOLUTION);
@@ -620,35 +583,30 @@ static void place_body(struct stage *stage, struct core *core)
             }
             core_edited(core, spline);
             if (tail_of(core->document, rig)->position[k].track < 0) continue;
-            name = core->document->splines[spline]->name;
+            say(report, "%s%s", any ? ", " : "", core->document->splines[spline]->name);
         } else {
             const double by = shift_coordinate(core, rig, k, offset[k], why);
             if (by == 0) continue;
-            snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
+            say(report, "%s%s %+.2f m", any ? ", " : "", coordinate_name(k), by);
         }
-        if (any) say_part(report, ", ");
-        say_part(report, name);
         any = true;
     }
     if (keys) {
-        char frame[64];
-        snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
-        say_part(report, frame);
+        say(report, " at frame %.0f.", round(core_frame(core)));
     } else if (any) {
-        say_part(report, is_tail && !why[0] ? ". Auto-key (Shift+A) sets knots instead." : ".");
+        say(report, is_tail && !why[0] ? ". Auto-key (Shift+A) sets knots instead." : ".");
     } else if (why[0]) {
         core_stopped(core, why);
     } else {
         core_message(core, false, "Back on the ground. Turn on auto-key (Shift+A) or record (R) to keep the height.");
     }
-    core_add_stopped(why, report, sizeof report);
-    base_say_channel(core, swings, report, sizeof report);
+    say_rest(core, why, swings, report);
     if (any) core_message(core, false, "%s", report);
     for (int i = 0; i < STAGE_MAX_STRANDS; i++) // the document now contains the offset: no new movement of the base
         memset(stage->inertia[i].offset, 0, sizeof stage->inertia[i].offset);
 }
 
-void body_drag_advance(struct stage *stage, const struct core *core)
+void stage_advance(struct stage *stage, struct core *core, double dt)
 {
     double *offset = stage->body_drag.offset;
     const struct document *document = core->document;
@@ -670,12 +628,8 @@ void body_drag_advance(struct stage *stage, const struct core *core)
             offset[k] = room_for(spline, offset[k], &stops);
         }
     }
-}
-
-void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3])
-{
-    const bool held = body_is_held(core) && rig_body(core->document, rig) == stage->body_drag.rig;
-    for (int k = 0; k < 3; k++) offset[k] = held ? stage->body_drag.offset[k] : 0;
+    drag_inertia_advance(stage, core, dt);
+    record_advance(stage, core);
 }
 
 enum { RING_POINTS = 64 };
@@ -692,12 +646,12 @@ struct stand {
 };
 
 /// False if there is no such body or it is not shown.
-static bool find_stand(const struct stage *stage, const struct core *core, int rig, struct stand *stand)
+static bool find_stand(const struct stage *stage, int rig, struct stand *stand)
 {
     const struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose pose;
     float lo[3], hi[3];
-    if (!rig_pose(&posing, rig, core->view.playback.position, NULL, &pose)) return false;
+    if (!rig_pose(&posing, rig, stage->core->view.playback.position, NULL, &pose)) return false;
     if (pose.kind == RIG_TAIL) {
         const float *base = pose.strand.matrix[0] + 12, scale = pose.strand.scale;
         *stand = (struct stand){{base[0], base[1], base[2]},
@@ -743,18 +697,17 @@ static float body_distance(struct stage *stage, const struct rig_pose *fox, cons
     return nearest;
 }
 
-struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y)
+struct hover body_hover(struct stage *stage, double position, float x, float y)
 {
     const struct stage_view *view = &stage->view;
     const struct posing posing = stage_posing_by_hand(stage);
-    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
     struct hover hover = {.thing = NULL};
     float direction[3], nearest = INFINITY;
-    camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
+    stage_ray(stage, x, y, direction);
     for (int t = 0; t < stage->tail_count; t++) {
         const int rig = stage->strands[t].rig;
         struct rig_pose pose;
-        if (!tail_of(core->document, rig) || !rig_pose(&posing, rig, position, NULL, &pose)) continue;
+        if (!tail_of(stage->core->document, rig) || !rig_pose(&posing, rig, position, NULL, &pose)) continue;
 
         // Where the ray enters and leaves the bounding box.
         const float *base = pose.strand.matrix[0] + 12, scale = pose.strand.scale;
@@ -781,37 +734,77 @@ static bool find_body(void *room, const struct core *core, const struct target *
     static const float places[][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
     const struct stage *stage = room;
-    if (target->nth >= stage->tail_count || stage->strands[target->nth].model < 0) return false;
-    const struct stage_model *fox = &stage->view.models[stage->strands[target->nth].model];
+    const struct shown_strand *tail = strand_of(stage, target->rig);
+    if (!tail || tail->model < 0) return false;
+    const struct stage_model *fox = &stage->view.models[tail->model];
     for (int point = 0; point < 4; point++) {
         const mat4s moved = mat4_from(fox->posed.pose->joints[point == 1 ? LIMB_HEAD : LIMB_BODY]);
         const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
         const vec3s place = glms_mat4_mulv3(mat4_from(fox->posed.root), at, 1.0f);
-        if (!stage_project_point(stage, core->view.layout.stage, place.raw, xy)) continue;
+        if (!stage_project_point(stage, place.raw, xy)) continue;
         const struct hover hover = stage_hover(room, core, xy[0], xy[1]);
         if (hover.thing == &thing_body && hover.rig == target->rig) return true;
     }
     return false;
 }
 
-void body_drag_show(struct stage *stage, struct core *core)
+/// A ring on the ground around the held body, or the one under the pointer.
+static void show_ring(const struct stage *stage, struct core *core)
 {
     const bool held = body_is_held(core);
     const int rig = held ? stage->body_drag.rig : core->input.hover.rig;
     struct stand stand;
     if (!held && core->input.hover.thing != &thing_body) return;
-    if (!find_stand(stage, core, rig, &stand)) return;
+    if (!find_stand(stage, rig, &stand)) return;
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right of the screen over the near half
         float angle = 6.2831853f * (float)i / RING_POINTS - core->view.camera.azimuth;
         const float place[3] = {stand.middle[0] - stand.radius * maths_sinf(-angle), stand.ground,
                                 stand.middle[1] - stand.radius * maths_cosf(-angle)};
-        if (!stage_project_point(stage, core->view.layout.stage, place, point[i])) return;
+        if (!stage_project_point(stage, place, point[i])) return;
     }
     const int half = RING_POINTS / 2;
     drawlist_line(&core->list, point[0], half + 1, 1.5f, color);
     drawlist_line(&core->list, point[half], half + 1, 1.5f, theme_fade(color, 0.3f));
+}
+
+void body_show(struct stage *stage, struct core *core)
+{
+    const struct document *document = core->document;
+    const struct record *record = &stage->record;
+    const bool is_held = body_is_held(core);
+    const int rig = is_held ? stage->body_drag.rig : core->input.hover.rig;
+    const struct tail *shown = is_held || core->input.hover.thing == &thing_body ? tail_of(document, rig) : NULL;
+    bool moves = false;
+    show_ring(stage, core);
+    for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
+    if (moves && !core->view.on[SWITCH_TRAIL])
+        path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
+    if (!is_held || !record->running) {
+        if (core->view.on[SWITCH_RECORD] && document_tail(document, 0))
+            show_sign(core, false, "Drag the body to record it");
+        return;
+    }
+
+    // The recorded path, with the base's place at each sample.
+    const int step = record->count / MAX_POINTS + 1;
+    float points[MAX_POINTS][2];
+    int count = 0;
+    bool seen = true;
+    for (int i = 0; i < record->count && seen; i += step) {
+        float place[3];
+        for (int k = 0; k < 3; k++) {
+            const struct param *param = &tail_of(document, rig)->position[k];
+            const double value = param->track >= 0 ? base_value(core, rig, k, record->first + i) : param->value;
+            place[k] = (float)(value + record->way[k][i]);
+        }
+        seen = stage_project_point(stage, place, points[count++]);
+    }
+    if (seen && count > 1) drawlist_line(&core->list, (const float *)points, count, 2, theme()->error);
+    char text[32];
+    snprintf(text, sizeof text, "REC %.1f s", record->count / (document->fps * document->substeps));
+    show_sign(core, true, text);
 }
 
 /// The first movement starts an armed recording.
@@ -851,7 +844,7 @@ static void end_body(void *room, struct core *core, bool keep)
     const bool edits = moved && keep && body < core->document->rig_count; // an edit may have removed the body
     const bool records = edits && record_has_motion(stage) && tail_of(core->document, body);
     if (records) { // splines for coordinates that moved, and channels that follow them
-        char text[768], why[STOPPED_SIZE] = "";
+        char report[REPORT_SIZE] = "", why[STOPPED_SIZE] = "";
         int made = 0, swings = -1;
         base_begin(stage, core);
         for (int k = 0; k < 3; k++) {
@@ -859,11 +852,9 @@ static void end_body(void *room, struct core *core, bool keep)
             for (int i = 0; i < record->count; i++) most = fmax(most, fabs(record->way[k][i]));
             if (most >= STILL) made += key_way(stage, core, k, &swings, why);
         }
-        snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.",
-                 made);
-        core_add_stopped(why, text, sizeof text);
-        base_say_channel(core, swings, text, sizeof text);
-        core_message(core, false, "%s", text);
+        say(report, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.", made);
+        say_rest(core, why, swings, report);
+        core_message(core, false, "%s", report);
     } else if (edits) {
         place_body(stage, core);
     }
@@ -884,8 +875,8 @@ void press_body(void *room, struct core *core, const struct hover *hover, const 
     struct stand stand = {.radius = 0};
     drag_begin(core, &body_owner, stage, "Move body", event);
     *hold = (struct body_drag){.rig = rig, .axis = -1};
-    find_stand(stage, core, rig, &stand);
-    hold->pixels_per_metre = stage_pixels_per_metre(stage, core, stand.base);
+    find_stand(stage, rig, &stand);
+    hold->pixels_per_metre = stage_pixels_per_metre(stage, stand.base);
     double pitch = maths_sin((double)camera->elevation);
     hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
     hold->rise = fmax(maths_cos((double)camera->elevation), LEAST_RISE);

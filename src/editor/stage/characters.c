@@ -20,8 +20,8 @@ static const float FRONT_SHARE = 0.1f; ///< weight of depth, to prefer front ver
 bool find_character(void *room, const struct core *core, const struct target *target, float xy[2])
 {
     const struct stage *stage = room;
-    const struct stage_model *shown =
-        stage_soft_shown(stage, document_find_rig(core->document, RIG_MODEL, target->nth));
+    const struct stage_model *shown = stage_soft_shown(stage, target->rig);
+    (void)core;
     if (!shown) return false;
     const struct figure *figure = shown->posed.figure;
     const float *lo = figure->lo, *hi = figure->hi;
@@ -37,7 +37,7 @@ bool find_character(void *room, const struct core *core, const struct target *ta
         found = i;
     }
     figure_vertex(&shown->posed, found, point);
-    return stage_project_point(stage, stage->view.viewport, point, xy);
+    return stage_project_point(stage, point, xy);
 }
 
 enum { SECTORS = 36, RINGS = 5, LEGEND_WIDTH = 196, LEGEND_HEIGHT = 132 };
@@ -117,10 +117,10 @@ struct shown_floor {
 };
 
 /// A shown character's floor and its place on the screen, or NULL.
-static const struct model_rig *floors_find(const struct stage *stage, const struct core *core,
-                                           const struct stage_model *shown, struct shown_floor *floor)
+static const struct model_rig *floors_find(const struct stage *stage, const struct stage_model *shown,
+                                           struct shown_floor *floor)
 {
-    const struct document *document = core->document;
+    const struct document *document = stage->core->document;
     const struct figure *figure = shown ? shown->posed.figure : NULL;
     if (!figure || shown->rig < 0 || shown->rig >= document->rig_count || !rig_has_floor(document->rigs[shown->rig]))
         return NULL;
@@ -134,7 +134,7 @@ static const struct model_rig *floors_find(const struct stage *stage, const stru
         float at[3] = {0, (float)rig->floor, 0};
         for (int k = 0; k < 3; k += 2)
             at[k] = under.raw[k] + sides[i][k / 2] * AROUND * scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
-        if (!stage_project_point(stage, core->view.layout.stage, at, floor->xy[i])) return NULL;
+        if (!stage_project_point(stage, at, floor->xy[i])) return NULL;
         const float depth = glms_vec3_distance(vec3_from(stage->view.eye), vec3_from(at));
         if (depth < nearest) nearest = depth, floor->first = i;
     }
@@ -149,7 +149,7 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
     for (int m = 0; m < stage->view.model_count; m++) {
         const struct stage_model *shown = &stage->view.models[m];
         struct shown_floor floor = {0};
-        if (!floors_find(stage, core, shown, &floor)) continue;
+        if (!floors_find(stage, shown, &floor)) continue;
         for (int side = 1; side < 4; side += 2) { // edges behind the character would block its surface
             const float *a = floor.xy[floor.first], *b = floor.xy[(floor.first + side) % 4];
             const float along = segment_nearest(a, b, (const float[2]){x, y});
@@ -186,16 +186,15 @@ static void press_floor(void *room, struct core *core, const struct hover *hover
     core->input.hover = *hover;
     drag_begin(core, &owner, stage, "Set floor", event);
     stage->floor_drag = (struct floor_drag){
-        .rig = hover->rig, .start = rig->floor, .pixels_per_metre = rise * stage_pixels_per_metre(stage, core, at)};
+        .rig = hover->rig, .start = rig->floor, .pixels_per_metre = rise * stage_pixels_per_metre(stage, at)};
 }
 
 /// The middle of a near edge.
 static bool find_floor(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const struct stage_model *shown =
-        stage_soft_shown(room, document_find_rig(core->document, RIG_MODEL, target->nth));
     struct shown_floor floor = {0};
-    if (!floors_find(room, core, shown, &floor)) return false;
+    (void)core;
+    if (!floors_find(room, stage_soft_shown(room, target->rig), &floor)) return false;
     for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
     return true;
 }
@@ -220,7 +219,7 @@ void floors_show(const struct stage *stage, struct core *core)
     for (int m = 0; m < stage->view.model_count; m++) {
         const struct stage_model *shown = &stage->view.models[m];
         struct shown_floor floor = {0};
-        const struct model_rig *rig = floors_find(stage, core, shown, &floor);
+        const struct model_rig *rig = floors_find(stage, shown, &floor);
         if (!rig) continue;
         const bool is_hot = core->input.hover.thing == &thing_floor && core->input.hover.rig == shown->rig;
 
@@ -252,7 +251,7 @@ void floors_show(const struct stage *stage, struct core *core)
         const float on[3] = {low[0], (float)rig->floor, low[2]};
         const struct rect r = core->view.layout.stage;
         float line[2][2];
-        if (is_touched && stage_project_point(stage, r, on, line[0]) && stage_project_point(stage, r, low, line[1])) {
+        if (is_touched && stage_project_point(stage, on, line[0]) && stage_project_point(stage, low, line[1])) {
             if (low[1] < (float)rig->floor) drawlist_line(&core->list, line[0], 2, 1.25f, color);
             drawlist_disc(&core->list, line[0], MARK, color);
             drawlist_disc(&core->list, line[1], END, color);
@@ -574,7 +573,7 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
     silhouette_clear(silhouette);
     for (int i = 0; i < reach->count; i++) {
         float xy[2];
-        if (!stage_project_point(stage, stage->view.viewport, stage->skin.posed[reach->vertices[i]], xy)) return;
+        if (!stage_project_point(stage, stage->skin.posed[reach->vertices[i]], xy)) return;
         silhouette_widen(silhouette, xy, 0);
     }
     if (!silhouette_open(silhouette, core->view.layout.stage)) return;
@@ -587,8 +586,7 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
         bool all = true;
         for (int c = 0; c < 3 && all; c++) {
             inside[c] = (radius - reach->distance[corner[c]]) * scale;
-            all = isfinite(inside[c]) &&
-                  stage_project_point(stage, stage->view.viewport, stage->skin.posed[corner[c]], xy[c]);
+            all = isfinite(inside[c]) && stage_project_point(stage, stage->skin.posed[corner[c]], xy[c]);
         }
         if (all && (xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]))
             silhouette_add_triangle(silhouette, (const float(*)[2])xy, inside);

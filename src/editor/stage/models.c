@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BOUND_STEPS = 60, FEET = 8 };
+enum { FEET = 8 };
 
 static const float FOOT_HEIGHT = 0.1f, FOOT_RADIUS = 0.085f; ///< shares of the character's height
 static const float ASIDE = 1.1f;                             ///< share of the character's width
@@ -71,7 +71,7 @@ float models_aside(const struct core *core, int rig)
     return ASIDE * (float)core->document->rigs[rig]->model.scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
 }
 
-static void pose_model(struct stage *stage, const struct core *core, int rig)
+void stage_pose_model(struct stage *stage, const struct core *core, int rig)
 {
     struct stage_view *view = &stage->view;
     struct posing posing = stage_posing_by_hand(stage);
@@ -123,29 +123,6 @@ static void pose_model(struct stage *stage, const struct core *core, int rig)
     add_shadows(view, shown, &posed.imported->skeleton);
 }
 
-uint64_t models_hash(uint64_t sum, const struct stage_view *view)
-{
-    for (int m = 0; m < view->model_count; m++) {
-        const struct stage_model *shown = &view->models[m];
-        const struct gltf *gltf = shown->posed.gltf;
-        const struct figure *figure = shown->posed.figure;
-        const struct morph *morph = &shown->posed.morph;
-        const int looks[] = {shown->map_coordinate, shown->map_axis};
-        sum = hash_word(sum, gltf->id);
-        sum = hash_word(hash_word(sum, figure ? figure->id : 0), figure ? figure->version : 0);
-        sum = hash_bytes(sum, looks, sizeof looks);
-        sum = hash_bytes(sum, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);
-        sum = hash_bytes(sum, morph->weight, (size_t)morph->count * sizeof *morph->weight);
-        sum = hash_bytes(sum, shown->posed.root, sizeof shown->posed.root);
-        sum = hash_bytes(sum, shown->posed.pose->world, (size_t)gltf->node_count * sizeof *shown->posed.pose->world);
-        sum = hash_bytes(sum, shown->posed.pose->weights,
-                         (size_t)gltf->weight_count * sizeof *shown->posed.pose->weights);
-    }
-    return sum;
-}
-
-const struct stage_kind model_stage = {.pose = pose_model, .bound_steps = BOUND_STEPS};
-
 void skin_free(struct skin *skin)
 {
     free(skin->posed);
@@ -195,11 +172,9 @@ bool skin_pose(struct stage *stage, int rig)
 
 bool skin_spot(const struct stage *stage, const struct figure *figure, float x, float y, struct surface_spot *spot)
 {
-    const struct stage_view *view = &stage->view;
-    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
     float direction[3];
-    camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
-    return pick_ray(figure, (const float(*)[3])stage->skin.posed, view->eye, direction, spot);
+    stage_ray(stage, x, y, direction);
+    return pick_ray(figure, (const float(*)[3])stage->skin.posed, stage->view.eye, direction, spot);
 }
 
 // Bones.
@@ -208,30 +183,6 @@ static const float REACH = 12;      ///< pixels from a bone
 static const float OVERLAP = 4;     ///< pixels; of bones this close, the nearest to the eye wins
 static const float AS_DEEP = 0.02f; ///< share of the depth; closer bones count as equally deep
 static const float AS_FAR = 0.5f;   ///< pixels; closer bones count as equally near
-
-void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones)
-{
-    // The spline that gives the chain its colour: the active one if it bends the chain.
-    const struct chain *chain = &core->document->rigs[rig]->chain;
-    int spline = chain->channel_count > 0 ? chain->channels[0].spline : -1;
-    for (int c = 0; c < chain->channel_count; c++) {
-        if (chain->channels[c].spline == core->focus.active) spline = core->focus.active;
-    }
-    for (int b = 0; b < stage->bone_count; b++) {
-        struct shown_bone *bone = &stage->bones[b];
-        if (bone->model != model || (bone->chain >= 0 && spline != core->focus.active)) continue;
-        for (int n = 0; n < bones->count; n++) {
-            const struct bone *part = &bone->part;
-            const bool is_last = n + 1 == bones->count;
-            if (part->from != bones->node[n]) continue;
-            if (is_last ? part->node != part->from : part->child != bones->node[n + 1]) continue;
-            bone->part.hidden = false;
-            bone->chain = rig;
-            bone->joint = n;
-            bone->color = spline >= 0 ? spline_list_color(core->document, spline) : 0;
-        }
-    }
-}
 
 /// A bone near the pointer.
 struct candidate {
@@ -245,11 +196,9 @@ static bool is_hidden(const struct core *core, const struct shown_bone *bone)
     return bone->part.hidden && !(core->input.mods & MOD_ALT);
 }
 
-static bool project_bone(const struct stage *stage, const struct core *core, const struct shown_bone *bone,
-                         float ends[2][2])
+static bool project_bone(const struct stage *stage, const struct shown_bone *bone, float ends[2][2])
 {
-    return stage_project_point(stage, core->view.layout.stage, bone->ends[0], ends[0]) &&
-           stage_project_point(stage, core->view.layout.stage, bone->ends[1], ends[1]);
+    return stage_project_point(stage, bone->ends[0], ends[0]) && stage_project_point(stage, bone->ends[1], ends[1]);
 }
 
 /// False if the bone is gone, hidden or out of reach. A bone without vertices counts as farther.
@@ -262,7 +211,7 @@ static bool measure_bone(const struct stage *stage, const struct core *core, int
     if (shown->model >= document->rig_count || document->rigs[shown->model]->kind != RIG_MODEL ||
         (shown->chain >= 0 && !tail_drag_holds(document, shown->chain, shown->joint)))
         return false; // an edit in the same frame removed it
-    if (is_hidden(core, shown) || !project_bone(stage, core, shown, ends)) return false;
+    if (is_hidden(core, shown) || !project_bone(stage, shown, ends)) return false;
     found->bone = bone;
     found->fraction = segment_nearest(ends[0], ends[1], p);
     for (int k = 0; k < 2; k++) found->xy[k] = ends[0][k] + (ends[1][k] - ends[0][k]) * found->fraction;
@@ -299,18 +248,6 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
                           .y = best.xy[1]};
 }
 
-void bone_click(const struct stage *stage, struct core *core)
-{
-    const struct hover *pressed = &stage->pressed;
-    const struct document *document = core->document;
-    const bool is_there = pressed->model < document->rig_count && document->rigs[pressed->model]->kind == RIG_MODEL;
-    if ((pressed->thing == &thing_bone || pressed->thing == &thing_chain) && is_there) {
-        bones_clicked(core, pressed->model, pressed->node);
-    } else if (core->focus.pick.use == BONE_SELECTED) {
-        core->focus.bone.any = false;
-    }
-}
-
 /// The middle of a bone; with "dog 2/" before its name, of that character.
 static bool find_bone(void *room, const struct core *core, const struct target *target, float xy[2])
 {
@@ -326,7 +263,7 @@ static bool find_bone(void *room, const struct core *core, const struct target *
             const struct shown_bone *bone = &stage->bones[b];
             const vec3s middle = glms_vec3_lerp(vec3_from(bone->ends[0]), vec3_from(bone->ends[1]), 0.5f);
             if (bone->model != r || bone->part.node != node || is_hidden(core, bone)) continue;
-            if (stage_project_point(stage, core->view.layout.stage, middle.raw, xy)) return true;
+            if (stage_project_point(stage, middle.raw, xy)) return true;
             break;
         }
     }
@@ -416,7 +353,7 @@ void bones_show(const struct stage *stage, struct core *core)
         const bool is_meant = (model == meant.model && node == meant.node) ||
                               way_count(core, &chosen, model, node) > 0 || way_count(core, &meant, model, node) > 0;
         const float opacity = is_chosen ? CHOSEN : is_meant ? MEANT : PLAIN;
-        if ((is_hidden(core, bone) && opacity == PLAIN) || !project_bone(stage, core, bone, ends)) continue;
+        if ((is_hidden(core, bone) && opacity == PLAIN) || !project_bone(stage, bone, ends)) continue;
         const uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
         if (node != bone->part.from) {
             drawlist_line(&core->list, ends[0], 2, 1.25f, theme_fade(color, opacity));

@@ -254,7 +254,7 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
         const int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
         const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
         const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
-        if (!stage_project_point(stage, core->view.layout.stage, point.raw, discs[i].middle)) return false;
+        if (!stage_project_point(stage, point.raw, discs[i].middle)) return false;
         const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
         const float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose->scale;
         discs[i].radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
@@ -296,7 +296,7 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
     figure_vertices(&pose->model, posed, NULL, NULL, NULL);
     for (int i = 0; i < figure->character.vertex_count; i++) {
         float xy[2];
-        if (!stage_project_point(stage, core->view.layout.stage, posed[i], xy)) return false;
+        if (!stage_project_point(stage, posed[i], xy)) return false;
         memcpy(posed[i], xy, sizeof xy);
         silhouette_widen(silhouette, xy, 0);
     }
@@ -327,7 +327,7 @@ static bool proxy_show(struct stage *stage, struct core *core, const struct posi
     if (pose.kind == RIG_MODEL) return show_character(stage, core, &pose, width, color, tip);
     if (pose.kind != RIG_CHAIN || pose.strand.count == 0) return false;
     for (int n = 0; n < pose.strand.count; n++) {
-        if (!stage_project_point(stage, core->view.layout.stage, pose.strand.matrix[n] + 12, points[n])) return false;
+        if (!stage_project_point(stage, pose.strand.matrix[n] + 12, points[n])) return false;
     }
     drawlist_line(&core->list, points[0], pose.strand.count, width, color);
     memcpy(tip, points[pose.strand.count - 1], 2 * sizeof *tip);
@@ -491,7 +491,7 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
             *kept = (struct trail_point){.is_set = true, .key = key, .frame = frame};
             point_place(core, point, (double)frame * document->substeps, kept->place);
         }
-        if (!stage_project_point(stage, core->view.layout.stage, kept->place, screen[count++])) return;
+        if (!stage_project_point(stage, kept->place, screen[count++])) return;
     }
     if (count == 0) return;
 
@@ -533,10 +533,9 @@ static void trail_show(struct stage *stage, struct core *core)
     path_show(stage, core, TRAIL_OF_TIP, point);
 
     // A ring where the point is now: a tip follows a dragged body.
-    const bool seen = strand_of(stage, point.rig)
-                          ? stage_project(stage, core, point.rig, point.at + 1, 0, xy)
-                          : point_place(core, point, core->view.playback.position, place) &&
-                                stage_project_point(stage, core->view.layout.stage, place, xy);
+    const bool seen = strand_of(stage, point.rig) ? stage_project(stage, point.rig, point.at + 1, 0, xy)
+                                                  : point_place(core, point, core->view.playback.position, place) &&
+                                                        stage_project_point(stage, place, xy);
     if (seen) drawlist_circle(&core->list, xy, NOW, 1.5f, theme()->playhead);
 }
 
@@ -587,16 +586,16 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
             most += glms_vec3_norm2(vec3_from(figure->largest[n]));
         }
         if ((most > 0 ? own / most : 0) < LEAST_SHARE * LEAST_SHARE) continue;
-        if (!stage_project_point(stage, view->viewport, place, xy)) continue;
+        if (!stage_project_point(stage, place, xy)) continue;
         hover = (struct hover){.thing = &thing_point, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
     }
     return hover;
 }
 
-static bool project_place(const struct stage *stage, const struct core *core, const double place[3], float xy[2])
+static bool project_place(const struct stage *stage, const double place[3], float xy[2])
 {
     const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
-    return stage_project_point(stage, core->view.layout.stage, at, xy);
+    return stage_project_point(stage, at, xy);
 }
 
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y)
@@ -610,7 +609,7 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
     struct pin_place place = PINS_START;
     for (const struct pin *pin; (pin = pins_next(core->document, &place));) {
         float xy[2];
-        if (!project_place(stage, core, pin->to, xy)) continue;
+        if (!project_place(stage, pin->to, xy)) continue;
         float distance = maths_hypotf(xy[0] - x, xy[1] - y);
         if (distance < reach && core->focus.pin == pin->id) distance = 0;
         if (distance >= best) continue;
@@ -629,12 +628,11 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
 }
 
 /// The screen's directions in the world, and its scale at a place.
-static void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3],
-                            struct pin_drag *drag)
+static void pins_take_plane(const struct stage *stage, const double place[3], struct pin_drag *drag)
 {
     const struct stage_view *view = &stage->view;
     const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
-    drag->pixels_per_metre = stage_pixels_per_metre(stage, core, at);
+    drag->pixels_per_metre = stage_pixels_per_metre(stage, at);
     for (int k = 0; k < 3; k++) {
         drag->right[k] = (double)view->view[4 * k];
         drag->up[k] = (double)view->view[4 * k + 1];
@@ -652,7 +650,8 @@ static void move_pin(void *room, struct core *core)
         to[k] = drag->start[k];
         if (axis < 0) to[k] += (dx * drag->right[k] - dy * drag->up[k]) / drag->pixels_per_metre;
     }
-    if (axis >= 0) to[axis] += stage_along(drag->right[axis], drag->up[axis], dx, dy) / drag->pixels_per_metre;
+    if (axis >= 0)
+        to[axis] += stage_along(drag->right[axis], drag->up[axis], &core->input.drag) / drag->pixels_per_metre;
     pins_put(core, drag->point.rig, drag->point.at, drag->frame, to);
 }
 
@@ -679,7 +678,7 @@ static void pins_show_axis(void *room, struct core *core)
     for (int e = 0; e < 2; e++) {
         for (int k = 0; k < 3; k++) ends[e][k] = (float)drag->start[k];
         ends[e][drag->axis] += e ? AXIS : -AXIS;
-        if (!stage_project_point(stage, core->view.layout.stage, ends[e], line[e])) return;
+        if (!stage_project_point(stage, ends[e], line[e])) return;
     }
     drawlist_dashed(&core->list, line[0], 2, 1, 6, 4, theme_fade(theme()->playhead, 0.7f));
 }
@@ -706,12 +705,13 @@ static void press_pin(void *room, struct core *core, const struct hover *hover, 
         point_place(core, drag->point, core->view.playback.position, place);
         for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
     }
-    pins_take_plane(stage, core, drag->start, drag);
+    pins_take_plane(stage, drag->start, drag);
 }
 
 static bool find_pin(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    return project_place(room, core, target->pin->to, xy);
+    (void)core;
+    return project_place(room, target->pin->to, xy);
 }
 
 /// pin(tail,0): a pin's marker, counted by frame.
@@ -746,7 +746,7 @@ void stage_nudge_pin(struct stage *stage, struct core *core, double right, doubl
     struct pin_drag plane;
     const struct pin *pin = pins_selected(core, &rig);
     if (!pin) return;
-    pins_take_plane(stage, core, pin->to, &plane);
+    pins_take_plane(stage, pin->to, &plane);
     const double step = core_round(NUDGE * (double)core->view.layout.stage.h / plane.pixels_per_metre, 0.01);
     double by[3];
     for (int k = 0; k < 3; k++) by[k] = step * (right * plane.right[k] + up * plane.up[k]);
@@ -770,7 +770,7 @@ void stage_hold_point(struct stage *stage, struct core *core)
 {
     int rig;
     struct hover hover = core->input.hover;
-    if (is_strand(&hover)) hover = strand_end(stage, core, &hover);
+    if (is_strand(&hover)) hover = strand_end(stage, &hover);
     const struct pin *selected = pins_selected(core, &rig);
     if (hover.thing == &thing_point) {
         pin_here(core, (struct rig_point){hover.rig, hover.joint});
@@ -800,8 +800,8 @@ void pins_show(struct stage *stage, struct core *core)
         const float radius = here || selected || hot ? HERE : ELSEWHERE;
         const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
         float line[2][2];
-        if (!project_place(stage, core, pin->to, line[0])) continue;
-        const bool has_end = left && left->is_found && project_place(stage, core, left->at, line[1]);
+        if (!project_place(stage, pin->to, line[0])) continue;
+        const bool has_end = left && left->is_found && project_place(stage, left->at, line[1]);
         if (has_end && maths_hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
             drawlist_line(list, line[0], 2, 1.25f, color);
             drawlist_disc(list, line[1], END, color);

@@ -106,13 +106,20 @@ static const double ZOOM_STEP = 0.12; ///< per wheel notch, as a power of e
 struct hover stage_hover(struct stage *stage, const struct core *core, float x, float y)
 {
     const struct hover bone = bone_hover(stage, core, x, y);
-    struct hover found = strand_hover(stage, core, x, y);
+    struct hover found = {.thing = NULL};
+    float nearest = STRAND_REACH;
+    for (int s = 0; s < stage->tail_count; s++) { // chains are found by their bones
+        const struct shown_strand *tail = &stage->strands[s];
+        strand_nearer(stage, tail->rig, &tail->pose, (const float[2]){x, y}, &nearest, &found);
+    }
+    // An edit in the same frame may have removed it.
+    if (!tail_drag_holds(core->document, found.rig, found.joint)) found.thing = NULL;
     if (bone.thing && (!found.thing || maths_hypotf(bone.x - x, bone.y - y) < maths_hypotf(found.x - x, found.y - y)))
         found = bone;
     const bool pins = core->input.mods & MOD_CTRL && !core->focus.brush.on && core->focus.pick.use == BONE_SELECTED;
-    if (pins && is_strand(&found)) found = strand_end(stage, core, &found);
+    if (pins && is_strand(&found)) found = strand_end(stage, &found);
     if (!found.thing) found = floors_hover(stage, core, x, y);
-    if (!found.thing) found = body_hover(stage, core, core->view.playback.position, x, y);
+    if (!found.thing) found = body_hover(stage, core->view.playback.position, x, y);
     const struct hover pin = pins_hover(stage, core, &found, x, y);
     return !pin.thing ? found : pin;
 }
@@ -127,9 +134,16 @@ void stage_click(void *room, struct core *core, bool keep)
     const struct stage *stage = room;
     const bool menu = core->input.drag.button == BUTTON_RIGHT && is_on_rig(&stage->pressed);
     if (core->input.drag.moved || (core->input.drag.button != BUTTON_LEFT && !menu) || !keep) return;
-    const bool shows = is_on_rig(&stage->pressed) && core->focus.pick.use == BONE_SELECTED;
-    bone_click(stage, core);
-    if (shows) core->show_clicked(core->inspector, stage->pressed.rig);
+    const struct hover *pressed = &stage->pressed;
+    const struct document *document = core->document;
+    const bool shows = is_on_rig(pressed) && core->focus.pick.use == BONE_SELECTED;
+    const bool is_there = pressed->model < document->rig_count && document->rigs[pressed->model]->kind == RIG_MODEL;
+    if ((pressed->thing == &thing_bone || pressed->thing == &thing_chain) && is_there) {
+        bones_clicked(core, pressed->model, pressed->node);
+    } else if (core->focus.pick.use == BONE_SELECTED) {
+        core->focus.bone.any = false;
+    }
+    if (shows) core->show_clicked(core->inspector, pressed->rig);
 }
 
 static const float ORBIT_SPEED = 0.008f; ///< radians per pixel
@@ -180,11 +194,11 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
         for (int s = 0; s < stage->strand_count; s++) {
             const int rig = stage->strands[s].rig;
             struct rig_pose posed;
-            if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
-            strand_nearer(stage, core, rig, &posed.strand, (const float[2]){event->x, event->y}, &nearest, &hover);
+            if (!strand_pose(stage, rig, position, NULL, &posed)) continue;
+            strand_nearer(stage, rig, &posed.strand, (const float[2]){event->x, event->y}, &nearest, &hover);
         }
         if (hover.thing && document->rigs[hover.rig]->kind == RIG_CHAIN) hover.thing = &thing_chain;
-        if (!hover.thing) hover = body_hover(stage, core, position, event->x, event->y);
+        if (!hover.thing) hover = body_hover(stage, position, event->x, event->y);
     }
     stage->pressed = hover;
     if (holds && is_on_rig(&hover)) core->focus.limb = core->document->rigs[hover.rig]->id;
@@ -231,23 +245,28 @@ void stage_wheel(struct core *core, const struct event *event)
     camera_orbit(&core->view.camera, TURN_STEP * (float)fmin(fmax(event->dx, -20), 20), 0);
 }
 
-void stage_advance(struct stage *stage, struct core *core, double dt)
-{
-    body_drag_advance(stage, core);
-    drag_inertia_advance(stage, core, dt);
-    record_advance(stage, core);
-}
-
 struct posing stage_posing(const struct core *core)
 {
     return (struct posing){
         .document = core->document, .evaluation = core->evaluation, .models = core->models, .look = core->view.look};
 }
 
-bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2])
+static bool project(const struct stage *stage, struct rect r, const float point[3], float xy[2])
 {
     const float viewport[4] = {r.x, r.y, r.w, r.h};
     return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
+}
+
+bool stage_project_point(const struct stage *stage, const float point[3], float xy[2])
+{
+    return project(stage, stage->core->view.layout.stage, point, xy);
+}
+
+void stage_ray(const struct stage *stage, float x, float y, float direction[3])
+{
+    const struct rect *r = &stage->view.viewport;
+    const float viewport[4] = {r->x, r->y, r->w, r->h};
+    camera_ray(stage->view.view, stage->view.projection, viewport, (const float[2]){x, y}, direction);
 }
 
 bool stage_project_box(const struct stage *stage, struct rect r, const float lo[3], const float hi[3],
@@ -257,7 +276,7 @@ bool stage_project_box(const struct stage *stage, struct rect r, const float lo[
     bool all = true;
     for (int corner = 0; corner < 8; corner++) {
         const float point[3] = {(corner & 1 ? hi : lo)[0], (corner & 2 ? hi : lo)[1], (corner & 4 ? hi : lo)[2]};
-        const bool seen = stage_project_point(stage, r, point, xy);
+        const bool seen = project(stage, r, point, xy);
         all &= seen;
         for (int k = 0; k < 2 && seen; k++) {
             least[k] = fminf(least[k], xy[k]);
@@ -268,27 +287,29 @@ bool stage_project_box(const struct stage *stage, struct rect r, const float lo[
     return all;
 }
 
-double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3])
+double stage_pixels_per_metre(const struct stage *stage, const float place[3])
 {
     const float depth = camera_depth(stage->view.view, stage->view.eye, place);
-    return 0.5 * (double)(core->view.layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
+    return 0.5 * (double)(stage->core->view.layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
 }
 
 static const double LEAST_AXIS = 0.3; ///< pixels; axes that look shorter move as slowly as one of this length
 
-double stage_along(double across, double up, double dx, double dy)
+double stage_along(double across, double up, const struct drag *drag)
 {
-    return (dx * across - dy * up) / fmax(across * across + up * up, LEAST_AXIS * LEAST_AXIS);
+    return (drag->moved_x * across - drag->moved_y * up) / fmax(across * across + up * up, LEAST_AXIS * LEAST_AXIS);
 }
 
 /// Initial azimuth in radians. A character, facing +z, is seen slightly from the side. Animals are seen
 /// FROM_BEHIND off straight behind, which shows tail and ears.
 static const float AZIMUTH = -1.13f, FROM_BEHIND = 0.87f;
 
-/// The order of posing and drawing.
-#define STAGE_ROW(constant, name) [constant] = &name##_stage,
-static const struct stage_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(STAGE_ROW)};
-#undef STAGE_ROW
+/// In the order of posing and drawing.
+static const struct {
+    void (*pose)(struct stage *stage, const struct core *core, int rig);
+    int bound_steps; ///< number of samples for the bounding box of its motion; 0: it has none
+} kinds[RIG_KINDS] = {
+    [RIG_TAIL] = {stage_pose_tail, 120}, [RIG_MODEL] = {stage_pose_model, 60}, [RIG_CHAIN] = {stage_pose_chain, 0}};
 
 struct rect stage_figure(const struct stage *stage, const struct core *core)
 {
@@ -304,12 +325,12 @@ void stage_fit(struct stage *stage, struct core *core)
     const double last = document_samples(document) - 1;
     bool seen[RIG_KINDS] = {false}, any = false;
     for (int r = 0; r < document->rig_count; r++) { // the box around each rig's motion over the scene
-        const struct stage_kind *kind = kinds[document->rigs[r]->kind];
+        const int steps = kinds[document->rigs[r]->kind].bound_steps;
         const struct posing posing = stage_posing_by_hand(stage);
-        for (int step = 0; kind->bound_steps > 0 && step <= kind->bound_steps; step++) {
+        for (int step = 0; steps > 0 && step <= steps; step++) {
             struct rig_pose posed;
             float low[3], high[3];
-            if (!rig_pose(&posing, r, last * step / kind->bound_steps, NULL, &posed)) break;
+            if (!rig_pose(&posing, r, last * step / steps, NULL, &posed)) break;
             const float aside = models_aside(core, r);
             rig_bounds(&posed, low, high);
             for (int k = 0; k < 3; k++) {
@@ -380,7 +401,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         for (int rig = -1; (rig = document_next_rig(document, (enum rig_kind)kind, rig)) >= 0;)
-            kinds[kind]->pose(stage, core, rig);
+            kinds[kind].pose(stage, core, rig);
     }
     view->has_tail = stage->tail_count > 0;
     view->viewport = core->view.layout.stage;
@@ -389,7 +410,22 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     camera_reshape(&core->view.camera, view->viewport.w / view->viewport.h);
     camera_matrices(&core->view.camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = stage_scenery_hash(view);
-    view->hash = models_hash(view->hash, view);
+    for (int m = 0; m < view->model_count; m++) {
+        const struct stage_model *shown = &view->models[m];
+        const struct model_pose *posed = &shown->posed;
+        const struct gltf *gltf = posed->gltf;
+        const struct figure *figure = posed->figure;
+        const struct morph *morph = &posed->morph;
+        const int looks[] = {shown->map_coordinate, shown->map_axis};
+        uint64_t sum = hash_word(view->hash, gltf->id);
+        sum = hash_word(hash_word(sum, figure ? figure->id : 0), figure ? figure->version : 0);
+        sum = hash_bytes(sum, looks, sizeof looks);
+        sum = hash_bytes(sum, morph->coordinate, (size_t)morph->count * sizeof *morph->coordinate);
+        sum = hash_bytes(sum, morph->weight, (size_t)morph->count * sizeof *morph->weight);
+        sum = hash_bytes(sum, posed->root, sizeof posed->root);
+        sum = hash_bytes(sum, posed->pose->world, (size_t)gltf->node_count * sizeof *posed->pose->world);
+        view->hash = hash_bytes(sum, posed->pose->weights, (size_t)gltf->weight_count * sizeof *posed->pose->weights);
+    }
     view->hash = hash_bytes(view->hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
     skin_reserve(stage);
     brush_pose(stage, core, covered);
@@ -430,7 +466,7 @@ void stage_show(struct stage *stage, struct core *core)
         const float *base = pose->matrix[0] + 12;
         const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose->scale};
         float xy[2];
-        bool free = stage_project_point(stage, r, feet, xy);
+        bool free = stage_project_point(stage, feet, xy);
         if (!free) continue;
         struct rect place = {.w = ceilf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, rig->name)) + DOT + 3 * PAD,
                              .h = HEIGHT};
@@ -450,8 +486,7 @@ void stage_show(struct stage *stage, struct core *core)
         shown[count++] = place;
     }
     brush_show(stage, core);
-    body_drag_show(stage, core);
-    record_show(stage, core);
+    body_show(stage, core);
     bones_show(stage, core);
     if (!core->input.drag.owner && is_strand(&core->input.hover))
         stage_ring(core, (float[2]){core->input.hover.x, core->input.hover.y});

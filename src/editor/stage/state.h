@@ -25,9 +25,6 @@ struct silhouette {
     float points[2 * SILHOUETTE_POINTS][2];          ///< the last outline, and room for another
 };
 
-/// Stiff enough for the body to stand still at both ends of its path, 1/s.
-#define RECORD_STIFFNESS 1e5
-
 /// A trial change of one spline's x.
 struct what_if {
     int spline;
@@ -209,17 +206,10 @@ struct stage {
     struct painting painting;
 };
 
-struct stage_kind {
-    /// Poses a rig of the document into the stage view, with its shadow.
-    void (*pose)(struct stage *stage, const struct core *core, int rig);
-    /// Number of samples for the bounding box of its motion; 0: it has none.
-    int bound_steps;
-};
-
-/// tail_stage …
-#define STAGE_KIND(constant, name) extern const struct stage_kind name##_stage;
-RIG_KIND_LIST(STAGE_KIND)
-#undef STAGE_KIND
+/// Each poses a rig of its kind into the stage view, with its shadow.
+void stage_pose_tail(struct stage *stage, const struct core *core, int rig);
+void stage_pose_chain(struct stage *stage, const struct core *core, int rig);
+void stage_pose_model(struct stage *stage, const struct core *core, int rig);
 
 /// The things of the stage. A press edits nothing until the pointer moves.
 extern const struct thing thing_tail, thing_chain, thing_bone, thing_body, thing_point, thing_pin, thing_floor;
@@ -233,9 +223,11 @@ static inline bool is_strand(const struct hover *hover)
 struct posing stage_posing(const struct core *core);
 /// The same, with the held body and its follow-through.
 struct posing stage_posing_by_hand(const struct stage *stage);
-/// Projects a point to the stage's rectangle `r`; false if it is behind the eye.
-bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
-/// The rectangle around the corners of a box that are in front of the eye; false if some are not.
+/// Projects a point to the screen; false if it is behind the eye.
+bool stage_project_point(const struct stage *stage, const float point[3], float xy[2]);
+/// The direction from the eye through a point of the screen.
+void stage_ray(const struct stage *stage, float x, float y, float direction[3]);
+/// On a stage in rectangle `r`, the rectangle around the corners of a box that are in front of the eye; false if some are not.
 bool stage_project_box(const struct stage *stage, struct rect r, const float lo[3], const float hi[3],
                        struct rect *around);
 
@@ -249,44 +241,34 @@ void stage_ring(struct core *core, const float xy[2]);
 void stage_click(void *room, struct core *core, bool keep);
 
 /// Pixels per metre facing the eye, at a place.
-double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3]);
-/// How far the pointer's movement goes along an axis whose unit is (across, up) on the screen.
-double stage_along(double across, double up, double dx, double dy);
+double stage_pixels_per_metre(const struct stage *stage, const float place[3]);
+/// How far a drag goes along an axis whose unit is (across, up) on the screen.
+double stage_along(double across, double up, const struct drag *drag);
 /// A soft character as shown, by its rig. NULL if not shown.
 const struct stage_model *stage_soft_shown(const struct stage *stage, int rig);
 
 /// The distance between a character and its clip alone, metres; 0: that is not shown. Of other rigs 0.
 float models_aside(const struct core *core, int rig);
-/// Hash of all models in the view.
-uint64_t models_hash(uint64_t hash, const struct stage_view *view);
 /// Shows a character, or a tail's fox. NULL if the view is full.
 struct stage_model *models_show(struct stage_view *view, const struct rig_pose *posed);
 
 /// A rig's strand as last shown, or NULL.
 const struct shown_strand *strand_of(const struct stage *stage, int rig);
 /// Poses a strand with the movement by hand; `change` may be NULL. False if it or its model is missing.
-bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
-                 const struct what_if *change, struct rig_pose *pose);
+bool strand_pose(const struct stage *stage, int rig, double position, const struct what_if *change,
+                 struct rig_pose *pose);
 /// Projects a point of a tail or chain, as last posed: `fraction` 0 … 1 of the way from joint to joint + 1.
-bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
-                   float xy[2]);
+bool stage_project(const struct stage *stage, int rig, int joint, double fraction, float xy[2]);
 /// Grab distance of a tail from its centre line, pixels.
 #define STRAND_REACH 16.0f
 /// Updates `hover` (a tail) and `nearest` (pixels) if a point of the strand is nearer.
-void strand_nearer(const struct stage *stage, const struct core *core, int rig, const struct pose *strand,
-                   const float p[2], float *nearest, struct hover *hover);
-/// The nearest point of a tail. Chains are found by their bones (bone_hover()).
-struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y);
+void strand_nearer(const struct stage *stage, int rig, const struct pose *strand, const float p[2], float *nearest,
+                   struct hover *hover);
 /// The joint end nearest to a point of a tail or chain (a point); nothing if it is behind the eye.
-struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between);
-
-/// Marks the bones of a chain.
-void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones);
+struct hover strand_end(const struct stage *stage, const struct hover *between);
 
 /// The bone at a point of the stage, or its chain.
 struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y);
-/// A click where the pointer was pressed: selects the bone there, or none.
-void bone_click(const struct stage *stage, struct core *core);
 
 /// Draws bones: all of the character under the pointer, and those from the selected bone to its tip.
 void bones_show(const struct stage *stage, struct core *core);
@@ -321,29 +303,15 @@ void brush_pose(struct stage *stage, struct core *core, bool covered);
 void brush_show(struct stage *stage, struct core *core);
 
 /// The body at a point of the stage nearest to the eye, at a position in samples.
-struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y);
+struct hover body_hover(struct stage *stage, double position, float x, float y);
 /// Starts to drag a body, or the character of a bone, over the ground or, with Ctrl, up and across. X, Y and Z lock an axis; R records.
 void press_body(void *room, struct core *core, const struct hover *hover, const struct event *event);
-/// A ring on the ground around the held body, or the one under the pointer.
-void body_drag_show(struct stage *stage, struct core *core);
+/// A ring around the body under the pointer or held, its path, and the motion recorded so far.
+void body_show(struct stage *stage, struct core *core);
 
-/// Moves the held body within its limits. Call before anything else advances.
-void body_drag_advance(struct stage *stage, const struct core *core);
-/// How far the current drag has moved a rig, in metres; 0 unless it is on the held body.
-void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3]);
-
-/// Advances by `dt` seconds: bases follow body_drag_offset(), their tails and chains swing.
-void drag_inertia_advance(struct stage *stage, const struct core *core, double dt);
 /// Stops a body's follow-through at once.
 void drag_inertia_stop(struct stage *stage, const struct document *document, int body);
-/// Adds the follow-through to the values of a rig's channels.
-void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
-                      wiggly_value values[RIG_MAX_INPUTS]);
 
-/// Records the body's place up to the playhead; stops at the end of the played range.
-void record_advance(struct stage *stage, const struct core *core);
-/// The path of the body under the pointer or held, and the motion recorded so far.
-void record_show(struct stage *stage, struct core *core);
 bool record_has_motion(const struct stage *stage);
 /// Chooses knots (indices from 0) so that a cubic through them, level at both ends, stays within `tolerance` of `count` values, one per
 /// sample. At most `capacity` (at least 2). Returns their number. Allocates.

@@ -22,48 +22,25 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 20 };
+enum { BLOBS_OF_ONE_TAIL = 20 };
 
 static const float DUSK = 0.35f; ///< for a fox of bind size
 
-static void move_by_hand(const void *context, int rig, struct by_hand *hand)
-{
-    const struct stage *stage = context;
-    double offset[3];
-    body_drag_offset(stage, stage->core, rig, offset);
-    for (int k = 0; k < 3; k++) hand->base[k] += offset[k];
-    drag_inertia_add(stage, stage->core->document, rig, hand->input);
-}
-
-struct posing stage_posing_by_hand(const struct stage *stage)
-{
-    const struct take *take = &stage->core->take;
-    struct posing posing = stage_posing(stage->core);
-    if (take_is_posed(stage->core)) {
-        posing.document = take->document;
-        posing.evaluation = &take->evaluation;
-        posing.look = take->look;
-    }
-    posing.move = move_by_hand;
-    posing.context = stage;
-    return posing;
-}
-
-bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
-                 const struct what_if *change, struct rig_pose *pose)
+bool strand_pose(const struct stage *stage, int rig, double position, const struct what_if *change,
+                 struct rig_pose *pose)
 {
     const struct posing posing = stage_posing_by_hand(stage);
     struct by_hand hand = {0};
     int count;
-    if (!tail_drag_holds(core->document, rig, 0)) return false;
-    const struct channel *channels = rig_channels(core->document->rigs[rig], &count);
+    if (!tail_drag_holds(stage->core->document, rig, 0)) return false;
+    const struct channel *channels = rig_channels(stage->core->document->rigs[rig], &count);
     for (int c = 0; change && c < count; c++) {
         if (channels[c].spline == change->spline) hand.input[c] = (wiggly_value){.re = change->re, .im = change->im};
     }
     return rig_pose(&posing, rig, position, &hand, pose);
 }
 
-static void pose_tail(struct stage *stage, const struct core *core, int rig)
+void stage_pose_tail(struct stage *stage, const struct core *core, int rig)
 {
     struct stage_view *view = &stage->view;
     struct posing posing = stage_posing_by_hand(stage);
@@ -81,9 +58,7 @@ static void pose_tail(struct stage *stage, const struct core *core, int rig)
     stage->tail_count++;
 }
 
-const struct stage_kind tail_stage = {.pose = pose_tail, .bound_steps = BOUND_STEPS};
-
-static void pose_chain(struct stage *stage, const struct core *core, int rig)
+void stage_pose_chain(struct stage *stage, const struct core *core, int rig)
 {
     const struct chain *chain = &core->document->rigs[rig]->chain;
     const int model = rig_body(core->document, rig);
@@ -91,13 +66,30 @@ static void pose_chain(struct stage *stage, const struct core *core, int rig)
     struct chain_bones bones;
     struct rig_pose posed;
     if (!shown || !chain_find(&shown->gltf, chain->from, chain->to, &bones, NULL)) return;
-    bones_mark(stage, core, rig, model, &bones);
+
+    // Its bones have the colour of the active spline if that bends them.
+    int spline = chain->channel_count > 0 ? chain->channels[0].spline : -1;
+    for (int c = 0; c < chain->channel_count; c++) {
+        if (chain->channels[c].spline == core->focus.active) spline = core->focus.active;
+    }
+    for (int b = 0; b < stage->bone_count; b++) {
+        struct shown_bone *bone = &stage->bones[b];
+        if (bone->model != model || (bone->chain >= 0 && spline != core->focus.active)) continue;
+        for (int n = 0; n < bones.count; n++) {
+            const struct bone *part = &bone->part;
+            const bool is_last = n + 1 == bones.count;
+            if (part->from != bones.node[n]) continue;
+            if (is_last ? part->node != part->from : part->child != bones.node[n + 1]) continue;
+            bone->part.hidden = false;
+            bone->chain = rig;
+            bone->joint = n;
+            bone->color = spline >= 0 ? spline_list_color(core->document, spline) : 0;
+        }
+    }
     if (stage->strand_count < STAGE_MAX_STRANDS &&
-        strand_pose(stage, core, rig, core->view.playback.position, NULL, &posed))
+        strand_pose(stage, rig, core->view.playback.position, NULL, &posed))
         stage->strands[stage->strand_count++] = (struct shown_strand){rig, -1, posed.strand};
 }
-
-const struct stage_kind chain_stage = {.pose = pose_chain};
 
 const struct shown_strand *strand_of(const struct stage *stage, int rig)
 {
@@ -108,29 +100,28 @@ const struct shown_strand *strand_of(const struct stage *stage, int rig)
 }
 
 /// Projects a point of a strand: `fraction` 0 … 1 of the way from joint to joint + 1. False if it is behind the eye.
-static bool strand_project(const struct stage *stage, const struct core *core, const struct pose *strand, int joint,
-                           double fraction, float xy[2])
+static bool strand_project(const struct stage *stage, const struct pose *strand, int joint, double fraction,
+                           float xy[2])
 {
     assert(joint >= 0 && joint < strand->count);
     const int next = joint + 1 < strand->count ? joint + 1 : joint;
     const vec3s from = vec3_from(strand->matrix[joint] + 12), to = vec3_from(strand->matrix[next] + 12);
     const vec3s world = glms_vec3_lerp(from, to, (float)fraction);
-    return stage_project_point(stage, core->view.layout.stage, world.raw, xy);
+    return stage_project_point(stage, world.raw, xy);
 }
 
-bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
-                   float xy[2])
+bool stage_project(const struct stage *stage, int rig, int joint, double fraction, float xy[2])
 {
     const struct shown_strand *strand = strand_of(stage, rig);
-    return strand && joint < strand->pose.count && strand_project(stage, core, &strand->pose, joint, fraction, xy);
+    return strand && joint < strand->pose.count && strand_project(stage, &strand->pose, joint, fraction, xy);
 }
 
-void strand_nearer(const struct stage *stage, const struct core *core, int rig, const struct pose *strand,
-                   const float p[2], float *nearest, struct hover *hover)
+void strand_nearer(const struct stage *stage, int rig, const struct pose *strand, const float p[2], float *nearest,
+                   struct hover *hover)
 {
     for (int n = 0; n + 1 < strand->count; n++) {
         float a[2], b[2];
-        if (!strand_project(stage, core, strand, n, 0, a) || !strand_project(stage, core, strand, n, 1, b)) continue;
+        if (!strand_project(stage, strand, n, 0, a) || !strand_project(stage, strand, n, 1, b)) continue;
         float fraction = segment_nearest(a, b, p);
         float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
         float distance = maths_hypotf(p[0] - at[0], p[1] - at[1]);
@@ -141,20 +132,7 @@ void strand_nearer(const struct stage *stage, const struct core *core, int rig, 
     }
 }
 
-struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y)
-{
-    struct hover hover = {.thing = NULL};
-    float nearest = STRAND_REACH;
-    for (int s = 0; s < stage->tail_count; s++) {
-        const struct shown_strand *tail = &stage->strands[s];
-        strand_nearer(stage, core, tail->rig, &tail->pose, (const float[2]){x, y}, &nearest, &hover);
-    }
-    // An edit in the same frame may have removed it.
-    if (!tail_drag_holds(core->document, hover.rig, hover.joint)) hover.thing = NULL;
-    return hover;
-}
-
-struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between)
+struct hover strand_end(const struct stage *stage, const struct hover *between)
 {
     struct hover hover = {.thing = &thing_point, .rig = between->rig};
     const struct shown_strand *strand = strand_of(stage, hover.rig);
@@ -162,7 +140,7 @@ struct hover strand_end(const struct stage *stage, const struct core *core, cons
     hover.joint = (int)round(between->joint + between->fraction) - 1;
     if (hover.joint < 0) hover.joint = 0;
     if (!strand || hover.joint + 1 >= strand->pose.count ||
-        !strand_project(stage, core, &strand->pose, hover.joint + 1, 0, xy))
+        !strand_project(stage, &strand->pose, hover.joint + 1, 0, xy))
         return (struct hover){.thing = NULL};
     hover.x = xy[0];
     hover.y = xy[1];
@@ -308,8 +286,8 @@ static void pull_strand(void *room, struct core *core)
     if (!tail_drag_holds(core->document, grab->rig, grab->joint)) return;
     struct rig_pose posed;
     float at[2];
-    if (!strand_pose(stage, core, grab->rig, core->view.playback.position, NULL, &posed)) return;
-    if (!strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, at)) return;
+    if (!strand_pose(stage, grab->rig, core->view.playback.position, NULL, &posed)) return;
+    if (!strand_project(stage, &posed.strand, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && maths_hypot(miss[0], miss[1]) < CLOSE) return;
     double column[4][2] = {{0}}; // of each axis by its real and its imaginary part, per radian of bend
@@ -322,8 +300,8 @@ static void pull_strand(void *room, struct core *core)
             float moved[2] = {at[0], at[1]};
             const double change = PROBE * axis->values_per_radian;
             const struct what_if what_if = {axis->spline, part ? 0 : change, part ? change : 0};
-            if (strand_pose(stage, core, grab->rig, core->view.playback.position, &what_if, &posed))
-                strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, moved);
+            if (strand_pose(stage, grab->rig, core->view.playback.position, &what_if, &posed))
+                strand_project(stage, &posed.strand, grab->joint, grab->fraction, moved);
             for (int k = 0; k < 2; k++) column[2 * a + part][k] = (double)(moved[k] - at[k]) / PROBE;
         }
         way[2 * a] = (now.y + now.re - axis->start[0]) / axis->values_per_radian;
@@ -386,7 +364,7 @@ static void show_pull(void *room, struct core *core)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
     float line[2][2] = {{0}, {core->input.drag.x, core->input.drag.y}};
-    if (!stage_project(room, core, grab->rig, grab->joint, grab->fraction, line[0])) return;
+    if (!stage_project(room, grab->rig, grab->joint, grab->fraction, line[0])) return;
     const double across = grab->start[0] + core->input.drag.moved_x - (double)line[0][0];
     const double down = grab->start[1] + core->input.drag.moved_y - (double)line[0][1];
     if (grab->applied && maths_hypot(across, down) > LEAST_LINE)
@@ -405,7 +383,7 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
     struct rig_pose posed;
     drag_begin(core, &strand_owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);
     *grab = (struct tail_drag){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
-    if (!strand_pose(stage, core, grab->rig, core->view.playback.position, NULL, &posed)) return;
+    if (!strand_pose(stage, grab->rig, core->view.playback.position, NULL, &posed)) return;
     grab->axis[AXIS_SIDE] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_SIDE);
     grab->axis[AXIS_UP] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_UP);
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
@@ -437,8 +415,8 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
     playback_seek(core, document_frame(document, grab->sample + (int)rounds) + rig->offset);
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
-    if (!strand_pose(stage, core, grab->rig, core->view.playback.position, NULL, &posed)) return;
-    strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, grab->start);
+    if (!strand_pose(stage, grab->rig, core->view.playback.position, NULL, &posed)) return;
+    strand_project(stage, &posed.strand, grab->joint, grab->fraction, grab->start);
 }
 
 /// A place along it: 0 is the first joint, 1 the tip.
@@ -447,7 +425,7 @@ static bool find_along(void *room, const struct core *core, const struct target 
     const int joints = bones_joints(core, target->rig);
     const double along = fmin(fmax(target->number[0], 0), 1) * joints;
     const int joint = (int)fmin(floor(along), joints - 1);
-    return stage_project(room, core, target->rig, joint, along - joint, xy);
+    return stage_project(room, target->rig, joint, along - joint, xy);
 }
 
 /// tail(tail,0.9)
