@@ -167,22 +167,16 @@ void inspector_reset(struct inspector *in)
     memset(in->called, 0, sizeof in->called);
 }
 
-/// Whether a point is in the panel or on the splines' list.
-static bool contains(const struct inspector *in, float x, float y)
-{
-    const struct layout *layout = &in->core->view.layout;
-    return rect_contains(layout->inspector, x, y) || rect_contains(layout->list, x, y) ||
-           rect_contains(layout->range, x, y);
-}
-
 /// Whether the panel handles the event. Without keyboard focus here, keys go to the editor.
 static bool concerns(const struct inspector *in, const struct event *event)
 {
     const struct ui *ui = &in->ui;
-    bool input = event->kind <= EVENT_WHEEL;
-    const bool inside = contains(in, event->x, event->y);
+    const struct layout *layout = &in->core->view.layout;
+    const float x = event->x, y = event->y;
+    const bool inside = rect_contains(layout->inspector, x, y) || rect_contains(layout->list, x, y) ||
+                        rect_contains(layout->range, x, y);
     if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
-    if (ui->popup.id) return input;
+    if (ui->popup.id) return event->kind <= EVENT_WHEEL;
     switch (event->kind) {
     case EVENT_KEY:
         if (in->core->input.held_key && !ui->typing) return false; // a held letter and an arrow go to the editor
@@ -192,7 +186,7 @@ static bool concerns(const struct inspector *in, const struct event *event)
     case EVENT_POINTER:
         return ui->held || inside;
     case EVENT_BUTTON:
-        return ui->held || ui->typing || (inside && core_divider_at(in->core, event->x, event->y) == DIVIDER_NONE);
+        return ui->held || ui->typing || (inside && core_divider_at(in->core, x, y) == DIVIDER_NONE);
     case EVENT_WHEEL:
         return inside;
     default:
@@ -301,8 +295,7 @@ bool inspector_step(struct inspector *in, enum ui_change change, const char *lab
     return true;
 }
 
-/// Opens the undo step of a row that was used.
-static bool opens(struct inspector *in, bool used, const char *undo)
+bool inspector_opens(struct inspector *in, bool used, const char *undo)
 {
     return used && (!undo || inspector_step(in, UI_SET, undo, NULL));
 }
@@ -310,31 +303,31 @@ static bool opens(struct inspector *in, bool used, const char *undo)
 bool inspector_button(struct inspector *in, struct rect r, const struct row *row)
 {
     ui_hint(&in->ui, r, row->hint);
-    return opens(in, ui_button(&in->ui, r, row->name, row->label, row->lit), row->undo);
+    return inspector_opens(in, ui_button(&in->ui, r, row->name, row->label, row->lit), row->undo);
 }
 
 bool inspector_icon(struct inspector *in, struct rect r, const struct row *row)
 {
-    return opens(in, ui_icon_button(&in->ui, r, row->name, row->icon, row->lit, row->hint), row->undo);
+    return inspector_opens(in, ui_icon_button(&in->ui, r, row->name, row->icon, row->lit, row->hint), row->undo);
 }
 
 bool inspector_choice(struct inspector *in, const struct row *row, int *chosen)
 {
     const struct rect r = row->label ? inspector_labelled(in, row->label) : ui_row(&in->ui, UI_ROW);
     ui_hint(&in->ui, r, row->hint);
-    return opens(in, ui_segments(&in->ui, r, row->name, row->choices, row->count, chosen), row->undo);
+    return inspector_opens(in, ui_segments(&in->ui, r, row->name, row->choices, row->count, chosen), row->undo);
 }
 
 bool inspector_toggle(struct inspector *in, struct rect r, const struct row *row, bool *on)
 {
     if (row->label) r = inspector_label(in, r, row->label);
     ui_hint(&in->ui, r, row->hint);
-    return opens(in, ui_toggle(&in->ui, r, row->name, on), row->undo);
+    return inspector_opens(in, ui_toggle(&in->ui, r, row->name, on), row->undo);
 }
 
 bool inspector_line(struct inspector *in, struct rect r, const struct row *row)
 {
-    return opens(in, ui_line(&in->ui, r, row->name) == UI_LINE_DONE, row->undo);
+    return inspector_opens(in, ui_line(&in->ui, r, row->name) == UI_LINE_DONE, row->undo);
 }
 
 int inspector_icons(struct inspector *in, struct rect r, const struct row *rows, int count)
@@ -364,36 +357,20 @@ int inspector_list(struct inspector *in, const struct dropdown *list, const stru
                    int chosen)
 {
     const int picked = ui_popup_list(&in->ui, list->name, items, count, chosen);
-    return opens(in, picked >= 0, list->undo) ? picked : -1;
-}
-
-bool inspector_picks(struct inspector *in, const struct dropdown *list, bool picked)
-{
-    return opens(in, picked, list->undo);
+    return inspector_opens(in, picked >= 0, list->undo) ? picked : -1;
 }
 
 double number_at(const struct number_row *row, const void *of)
 {
-    const char *at = (const char *)of + row->at;
-    double number;
-    int whole;
-    if (row->is_whole) {
-        memcpy(&whole, at, sizeof whole);
-        return whole;
-    }
-    memcpy(&number, at, sizeof number);
-    return number;
+    const void *at = (const char *)of + row->at;
+    return row->is_whole ? *(const int *)at : *(const double *)at;
 }
 
 void number_put(const struct number_row *row, void *of, double number)
 {
-    char *at = (char *)of + row->at;
-    const int whole = row->is_whole ? (int)lround(number) : 0;
-    if (row->is_whole) {
-        memcpy(at, &whole, sizeof whole);
-    } else {
-        memcpy(at, &number, sizeof number);
-    }
+    void *at = (char *)of + row->at;
+    if (row->is_whole) *(int *)at = (int)lround(number);
+    if (!row->is_whole) *(double *)at = number;
 }
 
 static bool set_number(struct inspector *in, const struct number_row *row, const struct number_home *home, int which,
@@ -430,7 +407,7 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
         return UI_NONE;
     }
     if (home->settles || !row->undo) {
-        if (opens(in, home->settles ? is_finished(change) : change != UI_NONE, row->undo))
+        if (inspector_opens(in, home->settles ? is_finished(change) : change != UI_NONE, row->undo))
             home->set(in, which, value, &core->step.error);
         if (change == UI_DRAG) in->dragged = value;
         return change;
@@ -658,6 +635,7 @@ void inspector_history(struct inspector *in)
     const size_t first = (size_t)view->list.offset;
     const size_t end = first + HISTORY_ROWS < count + 1 ? first + HISTORY_ROWS : count + 1;
     size_t pressed = end;
+    bool has_focus = false;
     const struct rect list = {ui->area.x, ui->y, ui->area.w, (float)(end - first) * UI_ROW};
     for (size_t row = first; row < end; row++) {
         const uint32_t color = row > done ? theme()->text_dim : theme()->text;
@@ -670,6 +648,7 @@ void inspector_history(struct inspector *in)
         }
         const struct rect r = ui_row(ui, UI_ROW);
         name_of(row, name);
+        has_focus |= ui->focus == ui_id(ui, name);
         if (ui_list_row(ui, r, name, "", 0, row == done)) pressed = row;
         ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 60, r.h}, text, color);
         if (history_step_is_saved(history, row)) ui_label_right(ui, r, "saved", color);
@@ -686,17 +665,11 @@ void inspector_history(struct inspector *in)
     if (ui->pass != UI_PASS_EVENT || ui->used) return;
     if (event->kind == EVENT_WHEEL && ui_hovered(ui, list)) // at its end the wheel scrolls the panel
         ui->used = ui_list_scroll(&view->list, event->dy > 0 ? -3 : 3);
-    if (event->kind != EVENT_KEY || event->action == ACTION_RELEASE) return;
-    if (event->key != KEY_UP && event->key != KEY_DOWN) return;
-    for (size_t row = first; row < end; row++) { // on the focused row: undo, redo
-        char name[32];
-        name_of(row, name);
-        if (ui->focus != ui_id(ui, name)) continue;
-        const bool up = event->key == KEY_UP;
-        ui->used = true;
-        if (up ? done > 0 : done < count) go_to(in, up ? done - 1 : done + 1);
-        return;
-    }
+    const bool up = event->key == KEY_UP; // on a focused row: undo, redo
+    if (!has_focus || event->kind != EVENT_KEY || event->action == ACTION_RELEASE) return;
+    if (!up && event->key != KEY_DOWN) return;
+    ui->used = true;
+    if (up ? done > 0 : done < count) go_to(in, up ? done - 1 : done + 1);
 }
 
 // The selected knots. A number typed for several knots sets all of them; a drag or an arrow moves all by the same amount. Frames keep
@@ -793,38 +766,34 @@ static void build_knots(struct inspector *in, int field, struct rect r)
     if (is_finished(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
 }
 
-/// Whether all selected knots have slopes. Among several, a still one counts as having one.
-static bool all_sloped(const struct inspector *in)
+/// What is true of all selected knots.
+struct common {
+    int holds;    ///< of enum holds, or -1
+    bool sloped;  ///< among several, a still one counts as having a slope
+    bool settles; ///< the motion at each
+    bool still;   ///< at least one is
+};
+
+static struct common common_of(const struct inspector *in)
 {
     const bool several = selected_count(in->core) > 1;
-    bool sloped = true;
-    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);) {
+    struct common all = {.holds = -1, .sloped = true, .settles = true};
+    bool first = true;
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at); first = false) {
         const struct knot *knot = knot_at(in->core->document, at);
-        sloped &= knot->has_slope || (several && knot->still);
+        const int holds = (int)knot_holds(knot);
+        all.holds = first || all.holds == holds ? holds : -1;
+        all.sloped &= knot->has_slope || (several && knot->still);
+        all.settles &= knot->settles;
+        all.still |= knot->still;
     }
-    return sloped;
-}
-
-/// What all selected knots hold, or -1; and whether one is still.
-static int all_hold(const struct inspector *in, bool *any_still)
-{
-    int all = -1;
-    *any_still = false;
-    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);) {
-        const int holds = (int)knot_holds(knot_at(in->core->document, at));
-        *any_still = *any_still || holds == HOLDS_STILL;
-        all = all == -1 ? holds : all == holds ? all : HOLDS_STILL + 1;
-    }
-    return all > HOLDS_STILL ? -1 : all;
+    return all;
 }
 
 static void build_holds(struct inspector *in)
 {
-    bool any_still;
-    const int lit = all_hold(in, &any_still);
-    bool settles = true;
-    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
-        settles &= knot_at(in->core->document, at)->settles;
+    const struct common all = common_of(in);
+    const int lit = all.holds;
     const struct row rows[] = {
         {NAMED("holds.value", "Value"), .hint = "Hold the value and leave the phase free", .lit = lit == HOLDS_VALUE},
         {NAMED("holds.pose", "Pose"), .hint = "Hold every part that lags as it is seen now (P)",
@@ -833,7 +802,8 @@ static void build_holds(struct inspector *in)
          .hint = "The motion comes to rest at the equilibrium, and begins from rest (Shift+P)",
          .lit = lit == HOLDS_STILL},
         {NAMED("settles", "Settle"),
-         .hint = "Let the motion stay here: it overshoots the value and swings about it (Alt+P)", .lit = settles}};
+         .hint = "Let the motion stay here: it overshoots the value and swings about it (Alt+P)",
+         .lit = all.settles}};
     const int pressed = build_buttons(in, rows, 4);
     if (pressed == 3) {
         core_toggle_settles(in->core);
@@ -846,14 +816,13 @@ static void build_holds(struct inspector *in)
 static void build_field(struct inspector *in, int field, bool one)
 {
     struct ui *ui = &in->ui;
-    bool any_still, sloped = all_sloped(in);
-    const int holds = all_hold(in, &any_still);
+    struct common all = common_of(in);
     const char *idle = NULL;
-    if (field == FIELD_VALUE && any_still) idle = "not all have one";
-    if (field == FIELD_PHASE && holds != HOLDS_POSE) idle = one ? "–" : "not all hold one";
-    if (field == FIELD_SLOPE && (one ? any_still : !sloped)) idle = one ? "–" : "not all have one";
-    if (field == FIELD_STIFFNESS && !sloped) idle = "–";
-    if (field == FIELD_VALUE && holds == HOLDS_STILL) {
+    if (field == FIELD_VALUE && all.still) idle = "not all have one";
+    if (field == FIELD_PHASE && all.holds != HOLDS_POSE) idle = one ? "–" : "not all hold one";
+    if (field == FIELD_SLOPE && (one ? all.still : !all.sloped)) idle = one ? "–" : "not all have one";
+    if (field == FIELD_STIFFNESS && !all.sloped) idle = "–";
+    if (field == FIELD_VALUE && all.holds == HOLDS_STILL) {
         inspector_parameter(in, PARAMETER_EQUILIBRIUM); // where it comes to rest
     } else if (idle) {
         inspector_idle(in, knot_rows[field].ui.label, idle);
@@ -863,9 +832,9 @@ static void build_field(struct inspector *in, int field, bool one)
         static const struct row slope = {NAMED("has_slope", NULL),
                                          .hint = "Give the knot a slope (T); D and E turn it"};
         const struct rect r = inspector_labelled(in, "slope"), beside = {r.x + 36, r.y, r.w - 36, r.h};
-        if (inspector_toggle(in, r, &slope, &sloped)) {
+        if (inspector_toggle(in, r, &slope, &all.sloped)) {
             slopes_set(in->core, SLOPES_TOGGLE);
-        } else if (sloped) {
+        } else if (all.sloped) {
             build_knots(in, FIELD_SLOPE, beside);
         } else {
             ui_label(ui, beside, "free", theme()->text_dim);
@@ -880,28 +849,13 @@ static bool set_tolerance(struct inspector *in, int which, double number, struct
     return true;
 }
 
-static void build_tolerance(struct inspector *in)
-{
-    const double range = in->core->cleaning.of->range;
-    const struct number_row row = {NUMBER_AT(struct cleaning, tolerance),
-                                   .ui = {NAMED("tolerance", "tolerance"),
-                                          .hint = "How far the curve may be from any of the knots that were there",
-                                          BAR(0, 0.2 * range), TYPED(0, INSPECTOR_NO_LIMIT), .fallback = 0.03 * range,
-                                          .step = 0.002 * range, .decimals = (int)fmax(0, 3 - maths_decade(range))}};
-    const struct number_home home = {.of = &in->core->cleaning, .set = set_tolerance};
-    inspector_number(in, &row, &home, 0, ui_row(&in->ui, UI_ROW));
-}
-
 const char *inspector_knot_title(struct inspector *in)
 {
     const struct simplify *cleaning = in->core->cleaning.of;
     const int count = selected_count(in->core);
-    if (cleaning) {
-        snprintf(in->knot_title, sizeof in->knot_title, "%d knots → %d", cleaning->count, cleaning->left);
-        return in->knot_title;
-    }
-    if (count < 2) return "Knot";
+    if (!cleaning && count < 2) return "Knot";
     snprintf(in->knot_title, sizeof in->knot_title, "%d knots", count);
+    if (cleaning) snprintf(in->knot_title, sizeof in->knot_title, "%d knots → %d", cleaning->count, cleaning->left);
     return in->knot_title;
 }
 
@@ -920,7 +874,7 @@ void inspector_knot(struct inspector *in)
             if (field == FIELD_PHASE) build_holds(in);
             build_field(in, field, one);
         }
-        const bool sloped = all_sloped(in);
+        const bool sloped = common_of(in).sloped;
         const struct row rows[] = {
             {NAMED("slope.flat", "Flat"), .hint = "Make the slopes flat (Shift+T)"},
             {NAMED("slope.smooth", "Smooth"),
@@ -948,7 +902,17 @@ void inspector_knot(struct inspector *in)
         if (!in->core->cleaning.of && knots > FEW && build_buttons(in, &simplify, 1) == 0)
             core_simplify(in->core, true);
     }
-    if (in->core->cleaning.of) build_tolerance(in);
+    if (in->core->cleaning.of) {
+        const double range = in->core->cleaning.of->range;
+        const struct number_row row = {
+            NUMBER_AT(struct cleaning, tolerance),
+            .ui = {NAMED("tolerance", "tolerance"),
+                   .hint = "How far the curve may be from any of the knots that were there", BAR(0, 0.2 * range),
+                   TYPED(0, INSPECTOR_NO_LIMIT), .fallback = 0.03 * range, .step = 0.002 * range,
+                   .decimals = (int)fmax(0, 3 - maths_decade(range))}};
+        const struct number_home home = {.of = &in->core->cleaning, .set = set_tolerance};
+        inspector_number(in, &row, &home, 0, ui_row(&in->ui, UI_ROW));
+    }
     ui->y = fmaxf(ui->y, end);
 }
 

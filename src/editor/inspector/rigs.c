@@ -50,20 +50,15 @@ void inspector_find_rig(struct inspector *in)
 static void show_rig(struct inspector *in, int rig)
 {
     struct core *core = in->core;
+    struct character_view *view = &core->focus.characters;
     const int number = document_rig_number(core->document, rig);
     in->selected = rig;
-    switch (core->document->rigs[rig]->kind) {
-    case RIG_TAIL:
-    case RIG_CHAIN:
+    if (is_tail_or_chain(core->document, rig)) {
         in->channel = rig == in->rig ? in->channel : 0;
         in->rig = rig;
-        break;
-    case RIG_MODEL:
-        core->focus.characters.drive = number == core->focus.characters.character ? core->focus.characters.drive : 0;
-        core->focus.characters.character = number;
-        break;
-    case RIG_KINDS:
-        break;
+    } else {
+        view->drive = number == view->character ? view->drive : 0;
+        view->character = number;
     }
 }
 

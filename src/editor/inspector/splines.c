@@ -46,7 +46,7 @@ static void build_palette(struct inspector *in, const struct dropdown *list)
         color = DEFAULT;
         picked = true;
     }
-    if (inspector_picks(in, list, color != UNCHANGED)) {
+    if (inspector_opens(in, color != UNCHANGED, list->undo)) {
         for (int s = 0; s < in->core->document->spline_count; s++) {
             if (spline_list_acts(in->core, spline, spline + 1, s))
                 edit_spline_color(in->core->document, s, color, &in->core->step.error);

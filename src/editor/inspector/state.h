@@ -105,6 +105,8 @@ struct row {
 
 // They return true if the row was used: edit now. Its undo step, if it has one, is open then, and the end of the event closes it.
 
+/// If a row, or a widget of another kind, was used.
+bool inspector_opens(struct inspector *in, bool used, const char *undo);
 bool inspector_button(struct inspector *in, struct rect r, const struct row *row);
 bool inspector_icon(struct inspector *in, struct rect r, const struct row *row);
 /// A labelled row of segments; true if `*chosen` changed.
@@ -135,8 +137,6 @@ void inspector_spline_field(struct inspector *in, const struct dropdown *list, s
 /// The open list of a dropdown, one row chosen (-1: none); the row to edit by now, or -1.
 int inspector_list(struct inspector *in, const struct dropdown *list, const struct ui_item *items, int count,
                    int chosen);
-/// The same for what another widget in the open list picked.
-bool inspector_picks(struct inspector *in, const struct dropdown *list, bool picked);
 /// The menu of A.
 extern const struct dropdown inspector_add_list;
 
