@@ -52,30 +52,6 @@ double filter_decibels(const struct filter *filter, double hz)
 static const double LEFT = 0.05; ///< of the initial displacement
 enum { MAX_SAMPLES = 100000 };
 
-/// The sample after which the swing stays within LEFT, of the first `count`, interpolated linearly. Two equal samples count as standstill
-/// half-way between them.
-static double settled_sample(const struct filter *filter, bool is_complex, int count)
-{
-    const double(*s)[2] = filter->s;
-    double complex l[2];
-    for (int k = 0; k < 2; k++) {
-        const maths_point turn = maths_turn(s[k][1] * filter->step);
-        l[k] = maths_exp(s[k][0] * filter->step) * (turn.cos + I * turn.sin);
-    }
-    double complex a = l[0] + l[1], b = -l[0] * l[1];
-    double complex before = 1, now = is_complex ? a / 2 : 1;
-    double size = 1, settled = 0;
-    for (int i = 0; i < count; i++) {
-        double next_size = is_complex ? maths_hypot(creal(now), cimag(now)) : fabs(creal(now));
-        if (size > LEFT) settled = next_size < size ? i + fmin(1, (size - LEFT) / (size - next_size)) : i + 1;
-        double complex next = a * now + b * before;
-        before = now;
-        now = next;
-        size = next_size;
-    }
-    return is_complex ? settled : settled - 0.5;
-}
-
 struct settling settle_alone(const struct spline *spline, double step)
 {
     if (spline_mode(spline) == WIGGLY_CUBIC) return (struct settling){.kind = SETTLE_CUBIC};
@@ -95,8 +71,25 @@ struct settling settle_alone(const struct spline *spline, double step)
     double samples = 3 * expected / step + 8; // a double pole takes 1.6 times as long as its radius suggests
     bool envelope = is_complex && p[PARAMETER_PASSIVE].value == WIGGLY_OSCILLATOR;
     if (envelope || samples > MAX_SAMPLES) return (struct settling){.kind = SETTLE_ALONE, .seconds = expected};
-    double seconds = step * settled_sample(&filter, is_complex, (int)samples);
-    return (struct settling){.kind = SETTLE_ALONE, .seconds = seconds};
+
+    // The sample after which the swing stays within LEFT, interpolated linearly. Two equal samples count as standstill half-way between them.
+    double complex l[2];
+    for (int k = 0; k < 2; k++) {
+        const maths_point turn = maths_turn(filter.s[k][1] * step);
+        l[k] = maths_exp(filter.s[k][0] * step) * (turn.cos + I * turn.sin);
+    }
+    const double complex a = l[0] + l[1], b = -l[0] * l[1];
+    double complex before = 1, now = is_complex ? a / 2 : 1;
+    double size = 1, settled = 0;
+    for (int i = 0; i < (int)samples; i++) {
+        const double next_size = is_complex ? maths_hypot(creal(now), cimag(now)) : fabs(creal(now));
+        if (size > LEFT) settled = next_size < size ? i + fmin(1, (size - LEFT) / (size - next_size)) : i + 1;
+        const double complex next = a * now + b * before;
+        before = now;
+        now = next;
+        size = next_size;
+    }
+    return (struct settling){.kind = SETTLE_ALONE, .seconds = step * (is_complex ? settled : settled - 0.5)};
 }
 
 struct settling settle_measure(const struct spline *spline, const wiggly_curve *curve, int last_knot)
@@ -137,44 +130,6 @@ static void draw_straight(struct drawlist *list, float x0, float y0, float x1, f
 static void draw_number(struct drawlist *list, float x, float y, const char *text)
 {
     drawlist_text(list, x, y, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
-}
-
-/// The unit circle with a filter's poles.
-static void draw_circle(const struct filter *filter, struct rect r, struct drawlist *list)
-{
-    const float radius = r.h / 2 - 6, cx = r.x + r.h / 2, cy = r.y + r.h / 2;
-    draw_straight(list, cx - radius - 5, cy, cx + radius + 5, cy, 1, theme()->grid_major);
-    draw_straight(list, cx, cy - radius - 5, cx, cy + radius + 5, 1, theme()->grid_major);
-    drawlist_rounded_line(list, (struct rect){cx - radius, cy - radius, 2 * radius, 2 * radius}, radius, 1.25f,
-                          theme()->equilibrium);
-    for (int i = 0; i < filter->count; i++) {
-        const double size = radius * maths_exp(filter->s[i][0] * filter->step),
-                     angle = filter->s[i][1] * filter->step;
-        const float x = cx + (float)(size * maths_cos(angle)), y = cy - (float)(size * maths_sin(angle));
-        draw_straight(list, x - 3, y - 3, x + 3, y + 3, 1.75f, theme()->accent);
-        draw_straight(list, x - 3, y + 3, x + 3, y - 3, 1.75f, theme()->accent);
-    }
-}
-
-/// Decibels and frequencies, from −span to span.
-static void draw_axes(struct rect plot, double hz, double span, struct drawlist *list)
-{
-    char text[32];
-    for (int db = 0; db >= (int)FLOOR; db -= 20) {
-        const float y = plot.y + plot.h * (float)db / FLOOR;
-        draw_straight(list, plot.x, y, plot.x + plot.w, y, 1, theme()->grid_major);
-        snprintf(text, sizeof text, "%d", db);
-        draw_number(list, plot.x - 6 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text), y + 4, text);
-    }
-    for (int side = -1; side <= 1; side++) {
-        const float x = plot.x + plot.w / 2 * (1 + (float)side * (float)(hz / span));
-        if (x < plot.x || x > plot.x + plot.w) continue;
-        snprintf(text, sizeof text, side ? "%.3g Hz" : "0", side * hz);
-        const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        draw_straight(list, x, plot.y, x, plot.y + plot.h, 1, side ? theme()->grid_major : theme()->zero);
-        draw_number(list, fmaxf(plot.x, fminf(plot.x + plot.w - width, x - width / 2)),
-                    plot.y + plot.h + margin_bottom - 2, text);
-    }
 }
 
 /// A filter's response below its peak. Returns that at 0 Hz.
@@ -218,7 +173,24 @@ void inspector_poles(struct inspector *in)
     const enum filter_kind own = spline_mode(spline) == WIGGLY_REAL ? FILTER_TWO_REAL : FILTER_TWO_COMPLEX;
     const struct rect plot = {below.x + margin_left, below.y + 4, below.w - margin_left, below.h - margin_bottom - 4};
     struct drawlist *list = in->ui.list;
-    draw_axes(plot, hz, span, list);
+    char text[32];
+
+    // The axes: decibels, and frequencies from −span to span.
+    for (int db = 0; db >= (int)FLOOR; db -= 20) {
+        const float y = plot.y + plot.h * (float)db / FLOOR;
+        draw_straight(list, plot.x, y, plot.x + plot.w, y, 1, theme()->grid_major);
+        snprintf(text, sizeof text, "%d", db);
+        draw_number(list, plot.x - 6 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text), y + 4, text);
+    }
+    for (int side = -1; side <= 1; side++) {
+        const float x = plot.x + plot.w / 2 * (1 + (float)side * (float)(hz / span));
+        if (x < plot.x || x > plot.x + plot.w) continue;
+        snprintf(text, sizeof text, side ? "%.3g Hz" : "0", side * hz);
+        const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+        draw_straight(list, x, plot.y, x, plot.y + plot.h, 1, side ? theme()->grid_major : theme()->zero);
+        draw_number(list, fmaxf(plot.x, fminf(plot.x + plot.w - width, x - width / 2)),
+                    plot.y + plot.h + margin_bottom - 2, text);
+    }
     for (int i = 1; i <= FILTER_KINDS; i++) { // its own last, on top
         static const int spare[FILTER_KINDS] = {1, 2, 1};
         const enum filter_kind kind = (enum filter_kind)(((int)own + i) % (int)FILTER_KINDS);
@@ -227,13 +199,25 @@ void inspector_poles(struct inspector *in)
                        text_color = is_own ? theme()->text : theme()->text_dim;
         const float x = top.x + CIRCLE + UI_GAP, y = top.y + 20 + 33 * (float)((int)kind);
         const struct filter filter = filter_of(kind, hz, damping, bandwidth, step);
-        char text[32];
         snprintf(text, sizeof text, "%.0f dB at 0 Hz",
                  (double)draw_response(&filter, plot, span, is_own ? 2 : 1.25f, color, list));
         drawlist_rounded(list, (struct rect){x, y - 8, 3, 24}, 1.5f, color);
         drawlist_text(list, x + 9, y, is_own ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL, text_color,
                       names[kind]);
         drawlist_text(list, x + 9, y + 14, FONT_NUMBER, THEME_TEXT_SMALL, text_color, text);
-        if (is_own) draw_circle(&filter, top, list);
+    }
+
+    // The unit circle with its poles.
+    const struct filter filter = filter_of(own, hz, damping, bandwidth, step);
+    const float radius = top.h / 2 - 6, cx = top.x + top.h / 2, cy = top.y + top.h / 2;
+    draw_straight(list, cx - radius - 5, cy, cx + radius + 5, cy, 1, theme()->grid_major);
+    draw_straight(list, cx, cy - radius - 5, cx, cy + radius + 5, 1, theme()->grid_major);
+    drawlist_rounded_line(list, (struct rect){cx - radius, cy - radius, 2 * radius, 2 * radius}, radius, 1.25f,
+                          theme()->equilibrium);
+    for (int i = 0; i < filter.count; i++) {
+        const double size = radius * maths_exp(filter.s[i][0] * step), angle = filter.s[i][1] * step;
+        const float x = cx + (float)(size * maths_cos(angle)), y = cy - (float)(size * maths_sin(angle));
+        draw_straight(list, x - 3, y - 3, x + 3, y + 3, 1.75f, theme()->accent);
+        draw_straight(list, x - 3, y + 3, x + 3, y - 3, 1.75f, theme()->accent);
     }
 }
