@@ -316,18 +316,22 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
     return skin_pose(stage, characters_rig(core)) ? figure : NULL;
 }
 
-/// Names of strokes, and the modes with Shift and Ctrl.
+/// A vertex' paint: log of the amplitude, and the phase.
+enum { SWELL, LEAD };
+
+/// Names of strokes, the modes with Shift and Ctrl, and what they paint: 1 more of it, −1 less, 0 blended with the surroundings.
 static const struct stroke {
     const char *label;
     enum brush_mode smoothed, other;
+    int part, way;
 } strokes[] = {
-    [BRUSH_ADVANCE] = {"Advance phase", BRUSH_SMOOTH_PHASE, BRUSH_DELAY},
-    [BRUSH_DELAY] = {"Delay phase", BRUSH_SMOOTH_PHASE, BRUSH_ADVANCE},
-    [BRUSH_SMOOTH_PHASE] = {"Smooth phase", BRUSH_ADVANCE, BRUSH_SMOOTH_PHASE},
-    [BRUSH_MORE] = {"More amplitude", BRUSH_SMOOTH_AMPLITUDE, BRUSH_LESS},
-    [BRUSH_LESS] = {"Less amplitude", BRUSH_SMOOTH_AMPLITUDE, BRUSH_MORE},
-    [BRUSH_SMOOTH_AMPLITUDE] = {"Smooth amplitude", BRUSH_MORE, BRUSH_SMOOTH_AMPLITUDE},
-    [BRUSH_ERASE] = {"Erase paint", BRUSH_ERASE, BRUSH_ERASE},
+    [BRUSH_ADVANCE] = {"Advance phase", BRUSH_SMOOTH_PHASE, BRUSH_DELAY, LEAD, 1},
+    [BRUSH_DELAY] = {"Delay phase", BRUSH_SMOOTH_PHASE, BRUSH_ADVANCE, LEAD, -1},
+    [BRUSH_SMOOTH_PHASE] = {"Smooth phase", BRUSH_ADVANCE, BRUSH_SMOOTH_PHASE, LEAD, 0},
+    [BRUSH_MORE] = {"More amplitude", BRUSH_SMOOTH_AMPLITUDE, BRUSH_LESS, SWELL, 1},
+    [BRUSH_LESS] = {"Less amplitude", BRUSH_SMOOTH_AMPLITUDE, BRUSH_MORE, SWELL, -1},
+    [BRUSH_SMOOTH_AMPLITUDE] = {"Smooth amplitude", BRUSH_MORE, BRUSH_SMOOTH_AMPLITUDE, SWELL, 0},
+    [BRUSH_ERASE] = {"Erase paint", BRUSH_ERASE, BRUSH_ERASE, LEAD, 0},
 };
 
 /// Mode of a stroke with modifiers: Shift smooths, Ctrl reverses.
@@ -346,15 +350,15 @@ static float falloff(float distance, float radius)
 
 enum { SMOOTHINGS = 4 }; ///< passes per frame
 
-static const double PHASE_FLOW = 6.2831853071795865;     ///< radians per second at full strength
-static const double AMPLITUDE_FLOW = 1.3862943611198906; ///< log of a: four times as much per second
-static const float STROKE_LEAD = 1.5707963f,
-                   STROKE_SWELL = 1.3862944f; ///< a stroke saturates at these, however long:
-                                              ///< larger differences make a surface fold through itself
-static const double BLENDING_FLOW = 12;       ///< of smoothing and erasing, 1/s
-static const double MOST_BLEND = 0.5;         ///< per pass; more would overshoot
-static const float MOST_LEAD = 12.5663706f, LEAST_SWELL = -4.60517f, MOST_SWELL = 1.3862944f; ///< ±720°; 0.01 … 4
-static const float STILL = 1e-4f; ///< of the largest amplitude; phases below this mean nothing
+// Of each part of the paint: how much flows per second at full strength, where a stroke saturates, however long (larger differences make a
+// surface fold through itself), and the least and most of it: an amplitude of 0.01 … 4, and ±720°.
+static const double flows[] = {[SWELL] = 1.3862943611198906, [LEAD] = 6.2831853071795865};
+static const float saturated[] = {[SWELL] = 1.3862944f, [LEAD] = 1.5707963f};
+static const float least[] = {[SWELL] = -4.60517f, [LEAD] = -12.5663706f};
+static const float most[] = {[SWELL] = 1.3862944f, [LEAD] = 12.5663706f};
+static const double BLENDING_FLOW = 12; ///< of smoothing and erasing, 1/s
+static const double MOST_BLEND = 0.5;   ///< per pass; more would overshoot
+static const float STILL = 1e-4f;       ///< of the largest amplitude; phases below this mean nothing
 
 static void multiply_complex(const float a[2], const float b[2], float out[2])
 {
@@ -393,17 +397,9 @@ static bool difference(const struct brush_work *work, const struct figure *figur
     }
     size = sqrtf(size);
     if (!(size > STILL * largest) || !(mean > STILL * largest)) return false;
-    out[0] = maths_logf(mean / size);
-    out[1] = maths_atan2f(turn[1], turn[0]);
+    out[SWELL] = maths_logf(mean / size);
+    out[LEAD] = maths_atan2f(turn[1], turn[0]);
     return true;
-}
-
-/// Limits a step so that the stroke's sum `spent` stays within `most`; adds the step to it.
-static float saturate(float step, float most, float *spent)
-{
-    const float allowed = fminf(step, fmaxf(most - *spent, 0));
-    *spent += allowed;
-    return allowed;
 }
 
 /// Continues the stroke for drag.dt seconds.
@@ -436,8 +432,7 @@ static void paint_stroke(void *room, struct core *core)
 
     // A dab on the vertices within reach, in modes that ignore their neighbours.
     const enum brush_mode mode = painting->stroke;
-    const bool turns = mode == BRUSH_ADVANCE || mode == BRUSH_DELAY,
-               swells = mode == BRUSH_MORE || mode == BRUSH_LESS;
+    const int part = strokes[mode].part, way = strokes[mode].way;
     const double flow = core->focus.brush.strength * core->input.drag.dt;
     struct dab dab = {coordinate, 0, work->vertices, (const float(*)[2])work->values};
     for (int i = 0; i < work->reach.count; i++) {
@@ -448,14 +443,13 @@ static void paint_stroke(void *room, struct core *core)
         work->vertices[dab.count] = vertex;
         float *value = work->values[dab.count++], *spent = &work->spent[vertex];
         for (int k = 0; k < 2; k++) value[k] = old[k];
-        const float lead = turns ? saturate(weight * (float)(PHASE_FLOW * flow), weight * STROKE_LEAD, spent) : 0;
-        const float swell =
-            swells ? saturate(weight * (float)(AMPLITUDE_FLOW * flow), weight * STROKE_SWELL, spent) : 0;
         const float kept = 1 - weight * (float)fmin(1, BLENDING_FLOW * flow);
-        if (mode == BRUSH_ADVANCE) value[1] = glm_clamp(value[1] + lead, -MOST_LEAD, MOST_LEAD);
-        if (mode == BRUSH_DELAY) value[1] = glm_clamp(value[1] - lead, -MOST_LEAD, MOST_LEAD);
-        if (mode == BRUSH_MORE) value[0] = glm_clamp(value[0] + swell, LEAST_SWELL, MOST_SWELL);
-        if (mode == BRUSH_LESS) value[0] = glm_clamp(value[0] - swell, LEAST_SWELL, MOST_SWELL);
+        if (way != 0) {
+            const float left = fmaxf(weight * saturated[part] - *spent, 0);
+            const float step = fminf(weight * (float)(flows[part] * flow), left);
+            *spent += step;
+            value[part] = glm_clamp(value[part] + (float)way * step, least[part], most[part]);
+        }
         for (int k = 0; k < 2 && mode == BRUSH_ERASE; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
     }
 
@@ -468,17 +462,15 @@ static void paint_stroke(void *room, struct core *core)
             const float weight = blend * falloff(work->reach.distance[vertex], radius);
             float by[2] = {0, 0};
             difference(work, figure, coordinate, vertex, by);
-            work->steps[i][0] = mode == BRUSH_SMOOTH_PHASE ? 0 : weight * by[0];
-            work->steps[i][1] = mode == BRUSH_SMOOTH_PHASE ? weight * by[1] : 0;
+            work->steps[i] = weight * by[part];
         }
         for (int i = 0; i < dab.count; i++) {
             float *value = work->values[i], *turned = work->turned[work->vertices[i]];
-            const float swell = glm_clamp(value[0] + work->steps[i][0], LEAST_SWELL, MOST_SWELL) - value[0];
-            const float lead = glm_clamp(value[1] + work->steps[i][1], -MOST_LEAD, MOST_LEAD) - value[1];
-            const float size = maths_expf(swell);
-            multiply_complex(turned, (const float[2]){size * maths_cosf(lead), size * maths_sinf(lead)}, turned);
-            value[0] += swell;
-            value[1] += lead;
+            const float step = glm_clamp(value[part] + work->steps[i], least[part], most[part]) - value[part];
+            const float factor[2] = {part == LEAD ? maths_cosf(step) : maths_expf(step),
+                                     part == LEAD ? maths_sinf(step) : 0};
+            multiply_complex(turned, factor, turned);
+            value[part] += step;
         }
     }
     for (int i = 0; i < dab.count && smooths; i++) {
@@ -616,12 +608,8 @@ void brush_show(struct stage *stage, struct core *core)
     if (!painting->covers) {
         snprintf(text, sizeof text, "radius %.0f %%, strength %.0f %%", 100 * brush->radius, 100 * brush->strength);
     } else if (paint) { // at the vertex nearest to the pointer
-        const struct surface_spot *spot = &painting->spot;
-        int nearest = 0;
-        for (int c = 1; c < 3; c++) {
-            if (spot->weight[c] > spot->weight[nearest]) nearest = c;
-        }
-        const float *value = paint->values[(size_t)coordinate * (size_t)paint->vertices + spot->corner[nearest]];
+        const size_t nearest = (size_t)spot_vertex(&painting->spot);
+        const float *value = paint->values[(size_t)coordinate * (size_t)paint->vertices + nearest];
         if (value[0] != 0 || value[1] != 0)
             snprintf(text, sizeof text, "painted here: %+.0f°, × %.2f",
                      printable_number((double)value[1] * DEGREES, 1), maths_exp((double)value[0]));

@@ -354,11 +354,8 @@ static void onion_show(struct stage *stage, struct core *core)
         const int high = after < spline->knot_count ? document_sample(document, spline->knots[after].frame) : 0;
         const bool back = after == spline->knot_count || (before >= 0 && position - low <= high - position);
         samples[count++] = back ? low : high;
-        if (back) {
-            before--;
-        } else {
-            after++;
-        }
+        before -= back;
+        after += !back;
     }
     uint32_t color = spline_list_color(document, core->focus.active);
     const struct posing posing = stage_posing(core);
@@ -508,8 +505,7 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
             }
         }
     }
-    points[made][0] = screen[count - 1][0];
-    points[made++][1] = screen[count - 1][1];
+    memcpy(points[made++], screen[count - 1], sizeof points[0]);
     for (int i = 0; i + 1 < made; i += RUN * PIECES) {
         const int length = made - i < RUN * PIECES + 1 ? made - i : RUN * PIECES + 1;
         const float alpha = fade_at(first + (i + length / 2.0) / PIECES - now, reach);
@@ -563,11 +559,7 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
         struct surface_spot spot;
         float xy[2];
         if (!skin_pose(stage, shown->rig) || !skin_spot(stage, figure, x, y, &spot)) continue;
-        int corner = 0;
-        for (int k = 1; k < 3; k++) {
-            if (spot.weight[k] > spot.weight[corner]) corner = k;
-        }
-        const int rig = shown->rig, vertex = (int)spot.corner[corner];
+        const int rig = shown->rig, vertex = spot_vertex(&spot);
         if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame removed it
         const float *place = stage->skin.posed[vertex];
         const float depth = camera_depth(view->view, view->eye, place);

@@ -168,7 +168,7 @@ struct brush_work {
     struct reach reach;
     int *vertices; ///< of a dab, and their new values
     float (*values)[2];
-    float (*steps)[2];  ///< the next smoothing steps
+    float *steps;       ///< the next smoothing steps
     float (*turned)[2]; ///< complex factor of each vertex by smoothing in this frame; 1 elsewhere
     float *spent;       ///< change of each vertex's phase or amplitude by this stroke
 };
@@ -343,6 +343,14 @@ static inline float segment_nearest(const float a[2], const float b[2], const fl
     const float dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
     const float along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
     return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
+}
+
+/// The vertex nearest to a point of a surface.
+static inline int spot_vertex(const struct surface_spot *spot)
+{
+    const float *weight = spot->weight;
+    const int last = weight[1] > weight[0] ? 1 : 0;
+    return (int)spot->corner[weight[2] > weight[last] ? 2 : last];
 }
 
 /// Frees its memory.
