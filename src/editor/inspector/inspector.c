@@ -711,12 +711,19 @@ static const struct {
     [FIELD_STIFFNESS] = {"Set stiffness", "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)"},
 };
 
+/// The first knot's.
 static double get_knots(const struct inspector *in, int field, bool kept, char text[64])
 {
-    const struct knot_numbers *knots = &in->knots;
-    if (knots->count > 1 && field == FIELD_FRAME) snprintf(text, 64, "%.6g …", knots->first);
-    if (knots->count > 1 && field != FIELD_FRAME && knots->mixed) snprintf(text, 64, "mixed");
-    return kept ? NAN : knots->first;
+    double first = NAN;
+    bool mixed = false;
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);) {
+        const double number = number_at(&knot_rows[field], knot_at(in->core->document, at));
+        if (isnan(first)) first = number;
+        mixed |= number != first;
+    }
+    if (selected_count(in->core) > 1 && field == FIELD_FRAME) snprintf(text, 64, "%.6g …", first);
+    if (mixed && field != FIELD_FRAME) snprintf(text, 64, "mixed");
+    return kept ? NAN : first;
 }
 
 /// Sets the number of all selected knots, or moves them along with the first, in an order in which they do not collide. false with an error
@@ -741,16 +748,11 @@ static void build_knots(struct inspector *in, int field, struct rect r)
 {
     static const struct number_home home = {.get = get_knots, .set = set_knots};
     struct number_row row = knot_rows[field];
-    struct knot_numbers *numbers = &in->knots;
-    *numbers = (struct knot_numbers){.first = NAN}; // after the edit of the previous field
-    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at); numbers->count++) {
-        const double number = number_at(&row, knot_at(in->core->document, at));
-        if (isnan(numbers->first)) numbers->first = number;
-        numbers->mixed |= number != numbers->first;
-    }
-    if (numbers->count == 0) return;
-    if (numbers->count == 1) { // its own hint, limits and decimals
-        const double value = numbers->first;
+    const int count = selected_count(in->core); // after the edit of the previous field
+    if (count == 0) return;
+    if (count == 1) { // its own hint, limits and decimals
+        char text[64];
+        const double value = get_knots(in, field, false, text);
         row.ui.hint = of_one[field].hint;
         row.undo = of_one[field].undo;
         if (field == FIELD_FRAME) {

@@ -225,31 +225,18 @@ static void build_sentence(struct inspector *in)
         settling = settle_measure(spline, &evaluation->curves[active], last);
     }
     const double frames = settling.seconds * document->fps;
-    switch (settling.kind) {
-    case SETTLE_UNKNOWN:
-        return;
-    case SETTLE_NEVER:
-        snprintf(text, sizeof text, "Rings forever.");
-        break;
-    case SETTLE_CUBIC:
-        snprintf(text, sizeof text, "%s",
-                 spline_mode(spline) == WIGGLY_CUBIC ? "A cubic: smooth through the knots, with no swing."
-                                                     : "Frequency 0 makes it a plain cubic.");
-        break;
-    case SETTLE_LATE:
-        snprintf(text, sizeof text, "Takes more than %d s to settle to 5 %%.", SETTLE_LIMIT);
-        break;
-    case SETTLE_ALONE:
-        snprintf(text, sizeof text, "Settles to 5 %% in %.0f frames.", frames);
-        break;
-    case SETTLE_SEEN:
+    const enum settle_kind kind = settling.kind;
+    const char *fixed = spline_mode(spline) == WIGGLY_CUBIC ? "A cubic: smooth through the knots, with no swing."
+                                                            : "Frequency 0 makes it a plain cubic.";
+    if (kind == SETTLE_UNKNOWN) return;
+    if (kind == SETTLE_NEVER) fixed = "Rings forever.";
+    if (kind == SETTLE_LATE) snprintf(text, sizeof text, "Takes more than %d s to settle to 5 %%.", SETTLE_LIMIT);
+    if (kind == SETTLE_ALONE) snprintf(text, sizeof text, "Settles to 5 %% in %.0f frames.", frames);
+    if (kind == SETTLE_SEEN)
         snprintf(text, sizeof text, "Settles to 5 %% %.0f frames after the last knot.", ceil(frames - 1e-6));
-        break;
-    case SETTLE_LEFT:
+    if (kind == SETTLE_LEFT)
         snprintf(text, sizeof text, "Still swinging when the scene ends (%.0f %%).", 100 * settling.left);
-        break;
-    }
-    ui_paragraph(&in->ui, text, theme()->text_dim);
+    ui_paragraph(&in->ui, kind == SETTLE_CUBIC || kind == SETTLE_NEVER ? fixed : text, theme()->text_dim);
 }
 
 /// A row that ends where those do that have a button.

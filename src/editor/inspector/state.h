@@ -14,13 +14,6 @@ struct history_view {
     size_t count, done;  ///< of the history at the last layout
 };
 
-/// A field of the selected knots: the first knot's number, and whether others differ.
-struct knot_numbers {
-    int count;
-    double first;
-    bool mixed;
-};
-
 /// The inspector's view state. Zero except `core` is a valid start.
 struct inspector {
     struct core *core;
@@ -41,7 +34,6 @@ struct inspector {
     struct bone_selection seen_bone;      ///< last shown bone
     const char *revealed;                 ///< section to scroll to, or NULL
     double dragged;                       ///< the dragged value; of several knots, the last possible one
-    struct knot_numbers knots;            ///< of the last field built
     char knot_title[32];                  ///< title of the knot section
     char feel_title[96];                  ///< of that on the feel
     bool alone;                           ///< Alt was held at the last press: Feel is of the active spline alone
