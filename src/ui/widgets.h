@@ -271,6 +271,7 @@ bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bo
 struct ui_item {
     const char *name, *label; ///< found as "item.<name>"
     uint32_t color;           ///< of its swatch; 0: none
+    int value;                ///< what it stands for; the caller's
 };
 /// A drop-down's popup list with one row chosen (-1: none); typing filters it. Build it as with ui_popup_begin(). Returns the picked row,
 /// which closes it, or -1.

@@ -79,7 +79,7 @@ static void build_sorter(struct panel *p)
     ui_dropdown(ui, ui_row(ui, UI_ROW), "kind", 7, "Kind", 0);
     for (int i = 0; i < p->items; i++) {
         snprintf(labels[i], sizeof labels[i], "%s%d", p->stem, i);
-        items[i] = (struct ui_item){labels[i], labels[i], 0};
+        items[i] = (struct ui_item){labels[i], labels[i], 0, i};
     }
     const int picked = ui_popup_list(ui, "kind", items, p->items, p->choice);
     if (picked >= 0) p->choice = picked;

@@ -356,8 +356,10 @@ static int build_buttons(struct inspector *in, const struct row *rows, int count
 int inspector_list(struct inspector *in, const struct dropdown *list, const struct ui_item *items, int count,
                    int chosen)
 {
-    const int picked = ui_popup_list(&in->ui, list->name, items, count, chosen);
-    return inspector_opens(in, picked >= 0, list->undo) ? picked : -1;
+    int row = count - 1;
+    while (row >= 0 && items[row].value != chosen) row--;
+    const int picked = ui_popup_list(&in->ui, list->name, items, count, row);
+    return inspector_opens(in, picked >= 0, list->undo) ? items[picked].value : -1;
 }
 
 double number_at(const struct number_row *row, const void *of)
@@ -432,17 +434,13 @@ void inspector_numbers(struct inspector *in, const struct number_row *rows, int 
     for (int i = 0; i < count; i++) inspector_number(in, &rows[i], home, i, ui_row(&in->ui, UI_ROW));
 }
 
-int inspector_spline_items(const struct inspector *in, const bool *left_out, int chosen, struct ui_item *items,
-                           int *splines, int *row)
+int inspector_spline_items(const struct inspector *in, const bool *left_out, struct ui_item *items)
 {
     int count = 0;
-    *row = -1;
     for (int s = 0; s < in->core->document->spline_count && s < INSPECTOR_MAX_SPLINES; s++) {
         if (left_out && left_out[s]) continue;
         const char *name = in->core->document->splines[s]->name;
-        if (s == chosen) *row = count;
-        items[count] = (struct ui_item){name, name, spline_list_color(in->core->document, s)};
-        splines[count++] = s;
+        items[count++] = (struct ui_item){name, name, spline_list_color(in->core->document, s), s};
     }
     return count;
 }
@@ -450,10 +448,8 @@ int inspector_spline_items(const struct inspector *in, const bool *left_out, int
 int inspector_spline_list(struct inspector *in, const struct dropdown *list, int chosen)
 {
     struct ui_item items[INSPECTOR_MAX_SPLINES];
-    int splines[INSPECTOR_MAX_SPLINES] = {0}, row;
-    const int count = inspector_spline_items(in, NULL, chosen, items, splines, &row);
-    const int picked = inspector_list(in, list, items, count, row);
-    return picked < 0 ? -1 : splines[picked];
+    const int count = inspector_spline_items(in, NULL, items);
+    return inspector_list(in, list, items, count, chosen);
 }
 
 void inspector_offer(struct inspector *in, const struct dropdown *list)

@@ -170,28 +170,24 @@ void inspector_add(struct inspector *in, int what) { carry_out(in, (enum added)w
 static void choose_added(struct inspector *in, const struct dropdown *list)
 {
     const struct document *document = in->core->document;
-    struct ui_item items[MAX_ADDED] = {{"tail", "Tail", 0}, {"file", "Character or background file …", 0}};
-    enum added what[MAX_ADDED] = {ADD_TAIL, ADD_FILE};
+    enum { COPIES = ADD_SPLINE + 1 }; // the value of an item that copies the first rig
+    struct ui_item items[MAX_ADDED] = {{"tail", "Tail", 0, ADD_TAIL},
+                                       {"file", "Character or background file …", 0, ADD_FILE}};
     char names[MAX_COPIES][24], labels[MAX_COPIES][ADDED_LABEL];
-    int rigs[MAX_ADDED] = {0}, count = 2;
+    int count = 2;
     for (int r = 0, copies = 0; r < document->rig_count && copies < MAX_COPIES; r++) {
         const char *title = path_name(rig_title(document->rigs[r]));
         if (document->rigs[r]->kind != RIG_MODEL) continue;
         snprintf(names[copies], sizeof names[0], "copy.%d", r);
         snprintf(labels[copies], ADDED_LABEL, "One more %.*s", name_fit(title, 80), title);
-        items[count] = (struct ui_item){names[copies], labels[copies], 0};
-        what[count] = ADD_COPY;
-        rigs[count++] = r;
+        items[count++] = (struct ui_item){names[copies], labels[copies], 0, COPIES + r};
         copies++;
     }
-    if (document_find_rig(document, RIG_MODEL, 0) >= 0) {
-        items[count] = (struct ui_item){"chain", "Chain from the selected bone (J)", 0};
-        what[count++] = ADD_CHAIN;
-    }
-    items[count] = (struct ui_item){"spline", "Spline", 0};
-    what[count++] = ADD_SPLINE;
+    if (document_find_rig(document, RIG_MODEL, 0) >= 0)
+        items[count++] = (struct ui_item){"chain", "Chain from the selected bone (J)", 0, ADD_CHAIN};
+    items[count++] = (struct ui_item){"spline", "Spline", 0, ADD_SPLINE};
     const int picked = inspector_list(in, list, items, count, -1);
-    if (picked >= 0) carry_out(in, what[picked], rigs[picked]);
+    if (picked >= 0) carry_out(in, picked < COPIES ? (enum added)picked : ADD_COPY, picked - COPIES);
 }
 
 const struct dropdown inspector_add_list = {.name = "add", .build = choose_added};
@@ -211,19 +207,17 @@ void inspector_add_menu(struct inspector *in, int unused)
 }
 
 /// A tail's and its body's channels, in list order.
-static const struct {
-    enum axis axis;
-    struct ui_item item;
-} tail_axes[] = {
-    {AXIS_SIDE, {"bend", "to the side", 0}},
-    {AXIS_UP, {"lift", "up and down", 0}},
-    {AXIS_LOOK, {"look", "turn of the head", 0}},
-    {AXIS_NOD, {"nod", "nod of the head", 0}},
-    {AXIS_EARS, {"ears", "ears", 0}},
-    {AXIS_BREATH, {"breath", "chest", 0}},
-    {AXIS_STRETCH, {"stretch", "stretch", 0}},
-    {AXIS_BLINK, {"blink", "eyelids", 0}},
+static const struct ui_item tail_axes[] = {
+    {"bend", "to the side", 0, AXIS_SIDE},
+    {"lift", "up and down", 0, AXIS_UP},
+    {"look", "turn of the head", 0, AXIS_LOOK},
+    {"nod", "nod of the head", 0, AXIS_NOD},
+    {"ears", "ears", 0, AXIS_EARS},
+    {"breath", "chest", 0, AXIS_BREATH},
+    {"stretch", "stretch", 0, AXIS_STRETCH},
+    {"blink", "eyelids", 0, AXIS_BLINK},
 };
+enum { TAIL_AXES = sizeof tail_axes / sizeof *tail_axes };
 
 enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN, ROW_OFFSET };
 
@@ -336,15 +330,8 @@ static bool set_channel(struct inspector *in, int which, int number)
 
 static void choose_axis(struct inspector *in, const struct dropdown *list)
 {
-    enum { COUNT = sizeof tail_axes / sizeof *tail_axes };
-    struct ui_item items[COUNT];
-    int row = -1;
-    for (int a = 0; a < COUNT; a++) {
-        items[a] = tail_axes[a].item;
-        if (tail_axes[a].axis == chosen_channel(in)->axis) row = a;
-    }
-    const int picked = inspector_list(in, list, items, COUNT, row);
-    if (picked >= 0) set_channel(in, CHANNEL_AXIS, (int)tail_axes[picked].axis);
+    const int axis = inspector_list(in, list, tail_axes, TAIL_AXES, (int)chosen_channel(in)->axis);
+    if (axis >= 0) set_channel(in, CHANNEL_AXIS, axis);
 }
 
 static const struct dropdown axis_list = {NAMED("axis", "moves"), .hint = "What this channel moves",
@@ -397,9 +384,9 @@ static void build_overlays(struct inspector *in)
 
 static const char *axis_label(enum axis axis)
 {
-    size_t a = 0;
-    while (a < sizeof tail_axes / sizeof *tail_axes && tail_axes[a].axis != axis) a++;
-    return a < sizeof tail_axes / sizeof *tail_axes ? tail_axes[a].item.label : "twist";
+    int a = 0;
+    while (a < TAIL_AXES && tail_axes[a].value != (int)axis) a++;
+    return a < TAIL_AXES ? tail_axes[a].label : "twist";
 }
 
 static void build_channel(struct inspector *in)
@@ -621,7 +608,9 @@ static int free_coordinates(const struct inspector *in, const struct model_rig *
         const char *name = figure->character.coordinates[k].name;
         int drive = 0;
         while (drive < rig->drive_count && strcmp(rig->drives[drive].name, name) != 0) drive++;
-        if (drive == rig->drive_count) items[count++] = (struct ui_item){name, name, 0};
+        if (drive < rig->drive_count) continue;
+        items[count] = (struct ui_item){name, name, 0, count};
+        count++;
     }
     return count;
 }
@@ -812,10 +801,10 @@ static void choose_clip(struct inspector *in, const struct dropdown *list)
     const int model = shown_model(in);
     const struct gltf *gltf = &bones_character(in->core, model)->gltf;
     const char *clip = in->core->document->rigs[model]->model.clip;
-    struct ui_item items[MAX_CLIPS + 1] = {{"none", "None", 0}};
+    struct ui_item items[MAX_CLIPS + 1] = {{"none", "None", 0, 0}};
     int count = 1;
     for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
-        items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
+        items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0, c + 1};
     const int picked = inspector_list(in, list, items, count, gltf_find_clip(gltf, clip) + 1);
     if (picked >= 0)
         bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL, REPEAT_BY_CLIP);

@@ -330,16 +330,14 @@ void inspector_bone_field(struct inspector *in, const struct dropdown *list, str
 int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen)
 {
     const struct imported *character = bones_character(in->core, model);
-    int nodes[MAX_BONES], row = -1;
+    int nodes[MAX_BONES];
     struct ui_item items[MAX_BONES];
-    const int count = bones_below(character, top, nodes, MAX_BONES), node = gltf_find_node(&character->gltf, chosen);
+    const int count = bones_below(character, top, nodes, MAX_BONES);
     for (int b = 0; b < count; b++) {
         const char *name = character->gltf.nodes[nodes[b]].name;
-        if (nodes[b] == node) row = b;
-        items[b] = (struct ui_item){name, name, 0};
+        items[b] = (struct ui_item){name, name, 0, nodes[b]};
     }
-    const int picked = inspector_list(in, list, items, count, row);
-    return picked < 0 ? -1 : nodes[picked];
+    return inspector_list(in, list, items, count, gltf_find_node(&character->gltf, chosen));
 }
 
 static void choose_joint(struct inspector *in, const struct dropdown *list)
@@ -379,23 +377,23 @@ static void choose_track(struct inspector *in, const struct dropdown *list)
     bool left_out[INSPECTOR_MAX_SPLINES];
     struct ui_item items[INSPECTOR_MAX_SPLINES + MAX_MODELS];
     char texts[MAX_MODELS][MODEL_TEXT];
-    int splines[INSPECTOR_MAX_SPLINES], models[MAX_MODELS], row;
     find_leaders(in, left_out);
-    const int count = inspector_spline_items(in, left_out, spline->parameter[parameter].track, items, splines, &row);
+    const int count = inspector_spline_items(in, left_out, items);
     int more = 0; // characters whose joints the equilibrium can follow
     for (int r = -1; parameter == PARAMETER_EQUILIBRIUM && more < MAX_MODELS &&
                      (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
         if (!bones_character(in->core, r)) continue;
         const char *title = rig_title(document->rigs[r]);
         snprintf(texts[more], MODEL_TEXT, "A joint of %.*s", name_fit(title, 80), title);
-        items[count + more] = (struct ui_item){texts[more], texts[more], 0};
-        models[more++] = r;
+        items[count + more] = (struct ui_item){texts[more], texts[more], 0, INSPECTOR_MAX_SPLINES + r};
+        more++;
     }
-    const int picked = inspector_list(in, list, items, count + more, row), active = in->core->focus.active;
-    if (picked >= count) {
-        bones_follow(in->core, active, models[picked - count], -1);
+    const int picked = inspector_list(in, list, items, count + more, spline->parameter[parameter].track);
+    const int active = in->core->focus.active;
+    if (picked >= INSPECTOR_MAX_SPLINES) {
+        bones_follow(in->core, active, picked - INSPECTOR_MAX_SPLINES, -1);
     } else if (picked >= 0 && core_step(in->core, "Follow spline", 0)) {
-        const struct param track = param_track(splines[picked]);
+        const struct param track = param_track(picked);
         edit_parameter(in->core->document, active, parameter, &track, &in->core->step.error);
     }
 }

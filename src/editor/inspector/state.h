@@ -126,7 +126,7 @@ void inspector_offer(struct inspector *in, const struct dropdown *list);
 void inspector_dropdown(struct inspector *in, const struct dropdown *list, struct rect r, int which, const char *text,
                         uint32_t color);
 void inspector_spline_field(struct inspector *in, const struct dropdown *list, struct rect r, int which, int spline);
-/// The open list of a dropdown, one row chosen (-1: none); the row to edit by now, or -1.
+/// The open list of a dropdown, with the item of a value chosen; the value to edit by now, or -1.
 int inspector_list(struct inspector *in, const struct dropdown *list, const struct ui_item *items, int count,
                    int chosen);
 /// The menu of A.
@@ -180,9 +180,7 @@ void inspector_numbers(struct inspector *in, const struct number_row *rows, int 
                        const struct number_home *home);
 
 /// Lists the document's splines, except those in `left_out` (by index; may be NULL), at most INSPECTOR_MAX_SPLINES; returns how many.
-/// `row`: the chosen spline's, or -1.
-int inspector_spline_items(const struct inspector *in, const bool *left_out, int chosen, struct ui_item *items,
-                           int *splines, int *row);
+int inspector_spline_items(const struct inspector *in, const bool *left_out, struct ui_item *items);
 /// The open spline list; the picked spline, or -1.
 int inspector_spline_list(struct inspector *in, const struct dropdown *list, int chosen);
 
