@@ -245,7 +245,6 @@ struct disc {
 static bool show_tail(struct stage *stage, struct core *core, const struct pose *pose, float width, uint32_t color,
                       float tip[2])
 {
-    const struct stage_view *view = &stage->view;
     struct disc discs[STATIONS];
     struct silhouette *silhouette = &stage->silhouette;
     silhouette_clear(silhouette);
@@ -255,9 +254,8 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
         const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
         const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
         if (!stage_project_point(stage, point.raw, discs[i].middle)) return false;
-        const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
         const float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose->scale;
-        discs[i].radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
+        discs[i].radius = metres * (float)stage_pixels_per_metre(stage, pose->matrix[joint] + 12);
         silhouette_widen(silhouette, discs[i].middle, discs[i].radius);
     }
     if (!silhouette_open(silhouette, core->view.layout.stage)) return false;
@@ -484,8 +482,8 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     for (int frame = first; frame <= last; frame++) {
         struct trail_point *kept = &stage->trail[which][(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
-        if (!kept->is_set || kept->key != key || kept->frame != frame) {
-            *kept = (struct trail_point){.is_set = true, .key = key, .frame = frame};
+        if (kept->key != key || kept->frame != frame) {
+            *kept = (struct trail_point){.key = key, .frame = frame};
             point_place(core, point, (double)frame * document->substeps, kept->place);
         }
         if (!stage_project_point(stage, kept->place, screen[count++])) return;

@@ -25,12 +25,6 @@ struct silhouette {
     float points[2 * SILHOUETTE_POINTS][2];          ///< the last outline, and room for another
 };
 
-/// A trial change of one spline's x.
-struct what_if {
-    int spline;
-    double re, im;
-};
-
 /// A channel that a pull controls through a pose at the playhead.
 struct tail_drag_axis {
     bool active, swings; ///< swings: its phase counts, too
@@ -125,8 +119,7 @@ struct liveliest {
 
 /// A point of a rig at a frame, cached for the document state `key`.
 struct trail_point {
-    bool is_set;
-    uint64_t key;
+    uint64_t key; ///< 0: none
     int frame;
     float place[3];
 };
@@ -254,8 +247,8 @@ struct stage_model *models_show(struct stage_view *view, const struct rig_pose *
 
 /// A rig's strand as last shown, or NULL.
 const struct shown_strand *strand_of(const struct stage *stage, int rig);
-/// Poses a strand with the movement by hand; `change` may be NULL. False if it or its model is missing.
-bool strand_pose(const struct stage *stage, int rig, double position, const struct what_if *change,
+/// Poses a strand with the movement by hand; `change` to its inputs may be NULL. False if it or its model is missing.
+bool strand_pose(const struct stage *stage, int rig, double position, const struct by_hand *change,
                  struct rig_pose *pose);
 /// Projects a point of a tail or chain, as last posed: `fraction` 0 … 1 of the way from joint to joint + 1.
 bool stage_project(const struct stage *stage, int rig, int joint, double fraction, float xy[2]);

@@ -26,18 +26,11 @@ enum { BLOBS_OF_ONE_TAIL = 20 };
 
 static const float DUSK = 0.35f; ///< for a fox of bind size
 
-bool strand_pose(const struct stage *stage, int rig, double position, const struct what_if *change,
+bool strand_pose(const struct stage *stage, int rig, double position, const struct by_hand *change,
                  struct rig_pose *pose)
 {
     const struct posing posing = stage_posing_by_hand(stage);
-    struct by_hand hand = {0};
-    int count;
-    if (!tail_drag_holds(stage->core->document, rig, 0)) return false;
-    const struct channel *channels = rig_channels(stage->core->document->rigs[rig], &count);
-    for (int c = 0; change && c < count; c++) {
-        if (channels[c].spline == change->spline) hand.input[c] = (wiggly_value){.re = change->re, .im = change->im};
-    }
-    return rig_pose(&posing, rig, position, &hand, pose);
+    return tail_drag_holds(stage->core->document, rig, 0) && rig_pose(&posing, rig, position, change, pose);
 }
 
 void stage_pose_tail(struct stage *stage, const struct core *core, int rig)
@@ -292,6 +285,8 @@ static void pull_strand(void *room, struct core *core)
     if (grab->applied && maths_hypot(miss[0], miss[1]) < CLOSE) return;
     double column[4][2] = {{0}}; // of each axis by its real and its imaginary part, per radian of bend
     double way[4] = {0}, pull[2];
+    int count;
+    const struct channel *channels = rig_channels(core->document->rigs[grab->rig], &count);
     for (int a = 0; a < 2; a++) {
         const struct tail_drag_axis *axis = &grab->axis[a];
         if (!axis->active) continue;
@@ -299,8 +294,12 @@ static void pull_strand(void *room, struct core *core)
         for (int part = 0; part < (axis->swings ? 2 : 1); part++) { // the derivative
             float moved[2] = {at[0], at[1]};
             const double change = PROBE * axis->values_per_radian;
-            const struct what_if what_if = {axis->spline, part ? 0 : change, part ? change : 0};
-            if (strand_pose(stage, grab->rig, core->view.playback.position, &what_if, &posed))
+            struct by_hand hand = {0};
+            for (int c = 0; c < count; c++) {
+                if (channels[c].spline != axis->spline) continue;
+                hand.input[c] = (wiggly_value){.re = part ? 0 : change, .im = part ? change : 0};
+            }
+            if (strand_pose(stage, grab->rig, core->view.playback.position, &hand, &posed))
                 strand_project(stage, &posed.strand, grab->joint, grab->fraction, moved);
             for (int k = 0; k < 2; k++) column[2 * a + part][k] = (double)(moved[k] - at[k]) / PROBE;
         }
@@ -386,9 +385,8 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
     if (!strand_pose(stage, grab->rig, core->view.playback.position, NULL, &posed)) return;
     grab->axis[AXIS_SIDE] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_SIDE);
     grab->axis[AXIS_UP] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_UP);
-    if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
+    if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline)
         grab->axis[AXIS_UP].active = false;
-    }
     drag_inertia_stop(stage, core->document, grab->rig);
 
     // The sample on a whole frame nearest to what is seen at the playhead where all controlled splines may have knots.
