@@ -365,19 +365,21 @@ int inspector_list(struct inspector *in, const struct dropdown *list, const stru
 double number_at(const struct number_row *row, const void *of)
 {
     const void *at = (const char *)of + row->at;
-    return row->is_whole ? *(const int *)at : *(const double *)at;
+    return row->is_whole ? *(const int *)at : (row->scale > 0 ? row->scale : 1) * *(const double *)at;
 }
 
 void number_put(const struct number_row *row, void *of, double number)
 {
     void *at = (char *)of + row->at;
     if (row->is_whole) *(int *)at = (int)lround(number);
-    if (!row->is_whole) *(double *)at = number;
+    if (!row->is_whole) *(double *)at = row->scale > 0 ? number / row->scale : number;
 }
 
 static bool set_number(struct inspector *in, const struct number_row *row, const struct number_home *home, int which,
                        double number, struct error *error)
 {
+    if (home->own) number_put(row, home->own, number);
+    if (home->own) return true;
     if (home->set) return home->set(in, which, number, error);
     struct rig changed = *in->core->document->rigs[*home->rig];
     number_put(row, &changed, number);
@@ -389,7 +391,7 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
 {
     struct core *core = in->core;
     struct ui_number number = row->ui;
-    const void *of = home->rig ? core->document->rigs[*home->rig] : home->of;
+    const void *of = home->rig ? core->document->rigs[*home->rig] : home->own ? home->own : home->of;
     const bool waits = home->settles && ui_is_dragged(&in->ui, number.name);
     char text[64] = "";
     const double was = home->get && core->take.document ? home->get(in, which, true, text) : NAN;
@@ -410,7 +412,7 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
     }
     if (home->settles || !row->undo) {
         if (inspector_opens(in, home->settles ? is_finished(change) : change != UI_NONE, row->undo))
-            home->set(in, which, value, &core->step.error);
+            set_number(in, row, home, which, value, &core->step.error);
         if (change == UI_DRAG) in->dragged = value;
         return change;
     }
@@ -840,13 +842,6 @@ static void build_field(struct inspector *in, int field, bool one)
     }
 }
 
-static bool set_tolerance(struct inspector *in, int which, double number, struct error *error)
-{
-    (void)which, (void)error;
-    in->core->cleaning.tolerance = number;
-    return true;
-}
-
 const char *inspector_knot_title(struct inspector *in)
 {
     const struct simplify *cleaning = in->core->cleaning.of;
@@ -908,7 +903,7 @@ void inspector_knot(struct inspector *in)
                    .hint = "How far the curve may be from any of the knots that were there", BAR(0, 0.2 * range),
                    TYPED(0, INSPECTOR_NO_LIMIT), .fallback = 0.03 * range, .step = 0.002 * range,
                    .decimals = (int)fmax(0, 3 - maths_decade(range))}};
-        const struct number_home home = {.of = &in->core->cleaning, .set = set_tolerance};
+        const struct number_home home = {.own = &in->core->cleaning};
         inspector_number(in, &row, &home, 0, ui_row(&in->ui, UI_ROW));
     }
     ui->y = fmaxf(ui->y, end);

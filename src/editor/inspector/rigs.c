@@ -641,28 +641,14 @@ static const struct number_row floor_rows[] = {
 };
 
 static const struct number_row brush_rows[] = {
-    {NUMBER_AT(struct brush, radius),
+    {NUMBER_AT(struct brush, radius), .scale = 100,
      .ui = {NAMED("radius", "radius"), BAR(1, 50), .unit = "%",
             .hint = "Radius, relative to the character's height (Ctrl+wheel on the stage)", TYPED(1, 50),
             .fallback = 12, .step = 1}},
-    {NUMBER_AT(struct brush, strength),
+    {NUMBER_AT(struct brush, strength), .scale = 100,
      .ui = {NAMED("strength", "strength"), BAR(2, 100), .unit = "%",
             .hint = "How fast paint flows (Shift+wheel on the stage)", TYPED(2, 100), .fallback = 40, .step = 1}},
 };
-
-/// The brush's numbers are fractions, shown in percent.
-static double get_share(const struct inspector *in, int which, bool kept, char text[64])
-{
-    (void)text;
-    return kept ? NAN : 100 * number_at(&brush_rows[which], &in->core->focus.brush);
-}
-
-static bool set_share(struct inspector *in, int which, double percent, struct error *error)
-{
-    (void)error;
-    number_put(&brush_rows[which], &in->core->focus.brush, percent / 100);
-    return true;
-}
 
 static void build_brush(struct inspector *in)
 {
@@ -685,8 +671,8 @@ static void build_brush(struct inspector *in)
     };
     static const struct row clean = {NAMED("paint.clean", "Remove all paint"),
                                      .hint = "Restore the model everywhere"};
-    static const struct number_home home = {.get = get_share, .set = set_share};
     struct brush *brush = &in->core->focus.brush;
+    const struct number_home home = {.own = brush};
     int on = brush->on;
     if (inspector_choice(in, &paint, &on)) characters_set_brush(in->core, on);
     const struct model_rig *rig = characters_selected(in->core);

@@ -146,6 +146,7 @@ bool inspector_step(struct inspector *in, enum ui_change change, const char *lab
 struct number_home {
     const int *rig; ///< the index of the rig that holds them, or NULL; then set() may be NULL
     const void *of; ///< the struct that holds them, or NULL
+    void *own;      ///< the same beside the document: each is written there at once
     /// Number `which`, or if `kept` the one before (take_keep()), which the bar marks and the row shows while K is held; NAN: none. May
     /// write a text to show in its place.
     double (*get)(const struct inspector *in, int which, bool kept, char text[64]);
@@ -159,6 +160,7 @@ struct number_row {
     const char *undo; ///< as in struct row
     size_t at;        ///< offset in the struct, for number_at()
     bool is_whole;    ///< stored as an int
+    double scale;     ///< shown this many times as large; 0: as it is
 };
 
 /// Where a row's double is, or its int.

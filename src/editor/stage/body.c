@@ -354,32 +354,6 @@ static void record_begin(struct stage *stage, struct core *core)
     core_message(core, false, "Recording the body: release to keep it.");
 }
 
-/// Records the body's place up to the playhead; stops at the end of the played range.
-static void record_advance(struct stage *stage, const struct core *core)
-{
-    struct record *record = &stage->record;
-    if (!record->running || !body_is_held(core)) return;
-    double offset[3], position = core->view.playback.position;
-    body_drag_way(stage, core, offset);
-    int next = record->first + record->count;
-    bool ended = position < next - 1 || !core->view.playback.playing || record->count == RECORD_SAMPLES ||
-                 next >= document_samples(core->document);
-    if (ended) {
-        record->running = false;
-        return;
-    }
-    const double from = record->seen_position, span = position - from;
-    for (; next <= position && record->count < RECORD_SAMPLES; next++) {
-        double share = span > 0 && record->count > 0 ? fmax(0, (next - from) / span) : 1;
-        for (int k = 0; k < 3; k++) {
-            record->way[k][record->count] = record->seen[k] + share * (offset[k] - record->seen[k]);
-        }
-        record->count++;
-    }
-    record->seen_position = position;
-    for (int k = 0; k < 3; k++) record->seen[k] = offset[k];
-}
-
 bool record_has_motion(const struct stage *stage) { return stage->record.count >= 3; }
 
 int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity)
@@ -608,9 +582,10 @@ static void place_body(struct stage *stage, struct core *core)
 
 void stage_advance(struct stage *stage, struct core *core, double dt)
 {
-    double *offset = stage->body_drag.offset;
+    double *offset = stage->body_drag.offset, way[3];
     const struct document *document = core->document;
-    body_drag_way(stage, core, offset);
+    body_drag_way(stage, core, way);
+    memcpy(offset, way, sizeof way);
 
     // As the splines' limits will limit it in place_body() or a recording.
     const struct tail *tail = tail_of(document, stage->body_drag.rig);
@@ -629,7 +604,24 @@ void stage_advance(struct stage *stage, struct core *core, double dt)
         }
     }
     drag_inertia_advance(stage, core, dt);
-    record_advance(stage, core);
+
+    // Records the body's place up to the playhead, until the end of the played range.
+    struct record *record = &stage->record;
+    if (!record->running || !body_is_held(core)) return;
+    const double position = core->view.playback.position;
+    int next = record->first + record->count;
+    record->running = position >= next - 1 && core->view.playback.playing && record->count < RECORD_SAMPLES &&
+                      next < document_samples(document);
+    if (!record->running) return;
+    const double from = record->seen_position, span = position - from;
+    for (; next <= position && record->count < RECORD_SAMPLES; next++) {
+        double share = span > 0 && record->count > 0 ? fmax(0, (next - from) / span) : 1;
+        for (int k = 0; k < 3; k++)
+            record->way[k][record->count] = record->seen[k] + share * (way[k] - record->seen[k]);
+        record->count++;
+    }
+    record->seen_position = position;
+    memcpy(record->seen, way, sizeof way);
 }
 
 enum { RING_POINTS = 64 };

@@ -58,50 +58,48 @@ static struct rect characters_legend(const struct core *core)
     return (struct rect){stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
 }
 
-void characters_show(struct core *core)
+/// The legend of the phases. Angles as in the complex plane: in step to the right, a quarter ahead at the top.
+static void show_legend(struct core *core)
 {
     static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
     const struct coordinate *coordinate = characters_coordinate(core);
     struct drawlist *list = &core->list;
-    if ((core->view.on[SWITCH_PHASE_MAP] || core->focus.brush.on) && coordinate) {
-        // The legend. Angles as in the complex plane: in step to the right, a quarter ahead at the top.
-        const struct rect box = characters_legend(core);
-        const float x = box.x + box.w / 2, y = box.y + 80;
-        char title[96];
-        snprintf(title, sizeof title, "%.*s: %s", name_fit(coordinate->name, 40), coordinate->name,
-                 directions[core->focus.characters.axis]);
-        stage_scrim(core, box);
-        drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
+    if (!coordinate || !(core->view.on[SWITCH_PHASE_MAP] || core->focus.brush.on)) return;
+    const struct rect box = characters_legend(core);
+    const float x = box.x + box.w / 2, y = box.y + 80;
+    char title[96];
+    snprintf(title, sizeof title, "%.*s: %s", name_fit(coordinate->name, 40), coordinate->name,
+             directions[core->focus.characters.axis]);
+    stage_scrim(core, box);
+    drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
 
-        // Its wheel: amplitude grows outwards. Rings and sectors overlap, so that no edges show.
-        const float step = 6.28318531f / SECTORS;
-        for (int ring = RINGS; ring >= 1; ring--) {
-            const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
-            for (int s = 0; s < SECTORS; s++) {
-                const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
-                const float xy[] = {x,
-                                    y,
-                                    x + radius * maths_cosf(from),
-                                    y - radius * maths_sinf(from),
-                                    x + radius * maths_cosf(to),
-                                    y - radius * maths_sinf(to)};
-                drawlist_convex(list, xy, 3,
-                                phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
-            }
+    // Its wheel: amplitude grows outwards. Rings and sectors overlap, so that no edges show.
+    const float step = 6.28318531f / SECTORS;
+    for (int ring = RINGS; ring >= 1; ring--) {
+        const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
+        for (int s = 0; s < SECTORS; s++) {
+            const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
+            const float xy[] = {x,
+                                y,
+                                x + radius * maths_cosf(from),
+                                y - radius * maths_sinf(from),
+                                x + radius * maths_cosf(to),
+                                y - radius * maths_sinf(to)};
+            drawlist_convex(list, xy, 3, phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
         }
-        for (int i = 0; i < 8; i++) { // the same lines as on the character (stage_mesh.frag)
-            const float angle = 0.785398163f * ((float)i + 0.5f), along = maths_cosf(angle), up = maths_sinf(angle),
-                        from = 0.2f * WHEEL;
-            const float xy[] = {x + from * along, y - from * up, x + WHEEL * along, y - WHEEL * up};
-            drawlist_line(list, xy, 2, 1.25f, 0x000000A0u);
-        }
-        show_centred(list, x, y - WHEEL - 6, "ahead", theme()->text_dim);
-        show_centred(list, x, y + WHEEL + 14, "behind", theme()->text_dim);
-        drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, theme()->text_dim, "in step");
-        const char *left = "opposite";
-        drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
-                      theme()->text_dim, left);
     }
+    for (int i = 0; i < 8; i++) { // the same lines as on the character (stage_mesh.frag)
+        const float angle = 0.785398163f * ((float)i + 0.5f), along = maths_cosf(angle), up = maths_sinf(angle),
+                    from = 0.2f * WHEEL;
+        const float xy[] = {x + from * along, y - from * up, x + WHEEL * along, y - WHEEL * up};
+        drawlist_line(list, xy, 2, 1.25f, 0x000000A0u);
+    }
+    show_centred(list, x, y - WHEEL - 6, "ahead", theme()->text_dim);
+    show_centred(list, x, y + WHEEL + 14, "behind", theme()->text_dim);
+    drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, theme()->text_dim, "in step");
+    const char *left = "opposite";
+    drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
+                  theme()->text_dim, left);
 }
 
 // Floors: hover, vertical drags and drawing.
@@ -214,7 +212,7 @@ static const float MARK = 4, END = 2; ///< radii, pixels
 static const float FAR_SIDE = 0.35f,
                    FAR_PART = 0.4f; ///< edges behind the character: opacity, and visible share
 
-void floors_show(const struct stage *stage, struct core *core)
+void characters_show(const struct stage *stage, struct core *core)
 {
     for (int m = 0; m < stage->view.model_count; m++) {
         const struct stage_model *shown = &stage->view.models[m];
@@ -269,12 +267,11 @@ void floors_show(const struct stage *stage, struct core *core)
         const float x = fmaxf(fminf(floor.xy[right][0] + 8, r.x + r.w - width - 8), r.x + 8);
         stage_note(core, x, floor.xy[right][1] + 4, FONT_LABEL, is_missed ? color : theme()->text_dim, text);
     }
+    show_legend(core);
 }
 
 // The brush.
 
-static const double RADIUS_LEAST = 0.01, RADIUS_MOST = 0.5, STRENGTH_LEAST = 0.02;
-static const double WHEEL_STEP = 0.15;   ///< per wheel notch, as a power of e
 static const double SHORTEST = 1.0 / 60; ///< seconds of paint for a click
 static const float STRIDE = 0.3f;        ///< of the radius on the screen, between spots within a frame
 static const float RIM = 0.25f;          ///< search beyond the radius, so that the ring can be drawn between vertices
@@ -516,21 +513,6 @@ bool brush_press(struct stage *stage, struct core *core, const struct event *eve
     drag_start_moving(core);
     if (!paint) characters_blank_paint(core, figure);
     core_settle(core);
-    return true;
-}
-
-bool brush_wheel(struct core *core, const struct event *event)
-{
-    struct brush *brush = &core->focus.brush;
-    const double factor = maths_exp(WHEEL_STEP * fmin(fmax(event->dy, -20), 20));
-    if (!brush->on || !(event->mods & (MOD_CTRL | MOD_SHIFT))) return false;
-    if (event->mods & MOD_CTRL) {
-        brush->radius = fmin(fmax(brush->radius * factor, RADIUS_LEAST), RADIUS_MOST);
-        core_message(core, false, "Brush: radius %.0f %% of the character's height.", 100 * brush->radius);
-    } else {
-        brush->strength = fmin(fmax(brush->strength * factor, STRENGTH_LEAST), 1);
-        core_message(core, false, "Brush: strength %.0f %%.", 100 * brush->strength);
-    }
     return true;
 }
 

@@ -123,33 +123,6 @@ void stage_pose_model(struct stage *stage, const struct core *core, int rig)
     add_shadows(view, shown, &posed.imported->skeleton);
 }
 
-void skin_free(struct skin *skin)
-{
-    free(skin->posed);
-    *skin = (struct skin){0};
-}
-
-void skin_reserve(struct stage *stage)
-{
-    struct skin *skin = &stage->skin;
-    int most = 0;
-    for (int m = 0; m < stage->view.model_count; m++) {
-        const struct figure *figure = stage->view.models[m].posed.figure;
-        const int count = figure ? figure->character.vertex_count : 0;
-        most = count > most ? count : most;
-    }
-    for (int t = 0; t < stage->tail_count; t++) {
-        if (stage->strands[t].model < 0) continue;
-        const struct gltf *fox = stage->view.models[stage->strands[t].model].posed.gltf;
-        const int count = gltf_vertex_count(fox, fox->node_count - 1);
-        most = count > most ? count : most;
-    }
-    if (most <= skin->capacity) return;
-    skin_free(skin);
-    skin->posed = need((size_t)most, sizeof *skin->posed);
-    skin->capacity = most;
-}
-
 const struct stage_model *stage_soft_shown(const struct stage *stage, int rig)
 {
     for (int m = 0; m < stage->view.model_count; m++) {

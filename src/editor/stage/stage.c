@@ -88,7 +88,7 @@ struct stage *stage_create(const struct core *core)
 void stage_destroy(struct stage *stage)
 {
     brush_free(&stage->painting);
-    skin_free(&stage->skin);
+    free(stage->skin.posed);
     free(stage);
 }
 
@@ -234,9 +234,24 @@ static const struct thing somewhere = {.name = "stage", .numbers = 2, .find = fi
 const struct thing *const stage_things[] = {&thing_tail, &thing_chain, &thing_bone, &thing_body, &thing_point,
                                             &thing_pin,  &thing_floor, &somewhere,  &beside,     NULL};
 
+static const double RADIUS_LEAST = 0.01, RADIUS_MOST = 0.5, STRENGTH_LEAST = 0.02;
+static const double BRUSH_STEP = 0.15; ///< per wheel notch, as a power of e
+
 void stage_wheel(struct core *core, const struct event *event)
 {
-    if (brush_wheel(core, event)) return;
+    // Ctrl changes the brush's radius, Shift its strength.
+    struct brush *brush = &core->focus.brush;
+    const double factor = maths_exp(BRUSH_STEP * fmin(fmax(event->dy, -20), 20));
+    if (brush->on && event->mods & MOD_CTRL) {
+        brush->radius = fmin(fmax(brush->radius * factor, RADIUS_LEAST), RADIUS_MOST);
+        core_message(core, false, "Brush: radius %.0f %% of the character's height.", 100 * brush->radius);
+        return;
+    }
+    if (brush->on && event->mods & MOD_SHIFT) {
+        brush->strength = fmin(fmax(brush->strength * factor, STRENGTH_LEAST), 1);
+        core_message(core, false, "Brush: strength %.0f %%.", 100 * brush->strength);
+        return;
+    }
     const struct rect *r = &core->view.layout.stage;
     const float before = core->view.camera.distance;
     camera_zoom(&core->view.camera, (float)maths_exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
@@ -427,7 +442,24 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
         view->hash = hash_bytes(sum, posed->pose->weights, (size_t)gltf->weight_count * sizeof *posed->pose->weights);
     }
     view->hash = hash_bytes(view->hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
-    skin_reserve(stage);
+
+    // Memory for the largest surface, in which it can be posed.
+    struct skin *skin = &stage->skin;
+    int most = 0;
+    for (int m = 0; m < view->model_count; m++) {
+        const struct figure *figure = view->models[m].posed.figure;
+        if (figure && figure->character.vertex_count > most) most = figure->character.vertex_count;
+    }
+    for (int t = 0; t < stage->tail_count; t++) {
+        if (stage->strands[t].model < 0) continue;
+        const struct gltf *fox = view->models[stage->strands[t].model].posed.gltf;
+        const int count = gltf_vertex_count(fox, fox->node_count - 1);
+        if (count > most) most = count;
+    }
+    if (most > skin->capacity) {
+        free(skin->posed);
+        *skin = (struct skin){.capacity = most, .posed = need((size_t)most, sizeof *skin->posed)};
+    }
     brush_pose(stage, core, covered);
 }
 
@@ -451,8 +483,7 @@ void stage_show(struct stage *stage, struct core *core)
                           THEME_TEXT_NORMAL, theme()->text_dim, text);
     }
     overlays_show(stage, core);
-    floors_show(stage, core);
-    characters_show(core);
+    characters_show(stage, core);
 
     // Names of several tails, but for those that would overlap others or whose tail's feet are behind the eye.
     const struct rect r = core->view.layout.stage;

@@ -271,9 +271,6 @@ bool bones_box(const struct stage *stage, const struct core *core, float lo[3], 
 /// The floor's edge at a point of the stage.
 struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y);
 
-/// Draws all floors: brighter if touched, in the warning colour if a character is below.
-void floors_show(const struct stage *stage, struct core *core);
-
 /// A marker at a point of the stage; else, if nothing else was `found`, a surface point to pin.
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y);
 
@@ -287,8 +284,6 @@ bool find_character(void *room, const struct core *core, const struct target *ta
 void brush_free(struct painting *painting);
 /// Handles a press on the stage; true if it starts a stroke.
 bool brush_press(struct stage *stage, struct core *core, const struct event *event);
-/// Ctrl+wheel changes the radius, Shift+wheel the strength; true if used.
-bool brush_wheel(struct core *core, const struct event *event);
 /// Finds the surface point under the pointer, and the brush's reach. Call after posing.
 void brush_pose(struct stage *stage, struct core *core, bool covered);
 
@@ -327,8 +322,8 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
 /// Height of the scene's description at the top of a stage, pixels; 0 without one.
 float caption_height(struct rect place, const struct document *document);
 
-/// Legend of the phase map, and the labels of a pair.
-void characters_show(struct core *core);
+/// Legend of the phase map, and all floors: brighter if touched, in the warning colour if a character is below.
+void characters_show(const struct stage *stage, struct core *core);
 
 /// Position on the segment a … b nearest to p, 0 … 1.
 static inline float segment_nearest(const float a[2], const float b[2], const float p[2])
@@ -346,10 +341,6 @@ static inline int spot_vertex(const struct surface_spot *spot)
     return (int)spot->corner[weight[2] > weight[last] ? 2 : last];
 }
 
-/// Frees its memory.
-void skin_free(struct skin *skin);
-/// Memory for the largest shown surface; allocates only if it grows.
-void skin_reserve(struct stage *stage);
 /// Poses a soft character's surface, unless done already. False if not shown.
 bool skin_pose(struct stage *stage, int rig);
 /// The posed figure's surface point at a point of the stage; false if none.
