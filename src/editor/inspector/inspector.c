@@ -1,4 +1,4 @@
-/// The inspector: the table of its sections, what they share, and the sections on scene, history, selected knots and pins.
+/// The inspector: what its sections share, those on scene, history, selected knots and pins, and the panel with the table of all.
 #include "editor/inspector/inspector.h"
 #include "base/names.h"
 #include "base/need.h"
@@ -12,271 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { FOOTER = 40 }; ///< height of the look switch, which does not scroll
-
-static const char *tail_title(struct inspector *in)
-{
-    const struct rig *shown = inspector_shown(in);
-    return shown && shown->kind == RIG_CHAIN ? "Chain set-up" : "Tail set-up";
-}
-
-/// What a section needs, one of: a kind of rig, the active spline, a swinging spline.
-enum {
-    TAILS = 1 << RIG_TAIL,
-    CHAINS = 1 << RIG_CHAIN,
-    MODELS = 1 << RIG_MODEL,
-    SPLINE = 1 << RIG_KINDS,
-    SWING = SPLINE << 1,
-    SOFT = SPLINE << 2, ///< a character with coordinates
-};
-
-/// Without a spline the rigs matter more.
-static bool has_no_spline(const struct core *core) { return core_active_spline(core) == NULL; }
-
-static bool has_bone_or_brush(const struct core *core)
-{
-    return has_no_spline(core) || core->focus.bone.any || core->focus.pick.use != BONE_SELECTED ||
-           core->focus.brush.on;
-}
-
-/// In order. Replays address headers by `name`.
-static const struct section {
-    const char *name;
-    void (*build)(struct inspector *in);
-    const char *title;
-    const char *(*titled)(struct inspector *in); ///< replaces a fixed title
-    unsigned needs;                              ///< shown if one of these is there; 0: always
-    bool (*shown)(const struct core *core);      ///< shown without More, as the first ones are; NULL: only on request
-    bool closed;                                 ///< initially
-} sections[] = {
-    {"section.feel", inspector_feel, .titled = inspector_feel_title, .needs = SPLINE},
-    {"section.knot", inspector_knot, .titled = inspector_knot_title, .needs = SPLINE},
-    {"section.spline", inspector_spline, .title = "Spline", .needs = SPLINE},
-    {"section.rigs", inspector_rigs, .title = "Rigs", .shown = has_no_spline},
-    {"section.tail", inspector_tail, .titled = tail_title, .needs = TAILS | CHAINS},
-    {"section.character", inspector_character, .title = "Character", .needs = MODELS, .shown = has_bone_or_brush},
-    {"section.pins", inspector_pins, .title = "Pins", .needs = TAILS | CHAINS | SOFT, .shown = pins_any_selected},
-    {"section.advanced", inspector_advanced, .title = "Advanced", .needs = SPLINE, .closed = true},
-    {"section.limits", inspector_limits, .title = "Limits and steadiness", .needs = SPLINE, .closed = true},
-    {"section.variation", inspector_variation, .title = "Variation", .needs = SWING, .closed = true},
-    {"section.scene", inspector_scene, .title = "Scene", .closed = true},
-    {"section.history", inspector_history, .title = "History", .closed = true}, // last: its height changes
-};
-
-enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 2 /* always shown */ };
-
-_Static_assert(SECTIONS <= (int)INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
-
-void inspector_unfold(struct inspector *in, const char *name)
-{
-    for (int i = 0; i < SECTIONS; i++) {
-        if (strcmp(sections[i].name, name) != 0) continue;
-        in->called[i] = true;
-        in->flipped[i] = sections[i].closed;
-        in->revealed = sections[i].name; // the next pass scrolls there
-    }
-}
-
-/// false if the sections no longer fit where they were laid out: a shorter panel was scrolled past its end, or one was to be revealed.
-static bool build_panel(struct inspector *in, struct rect area)
-{
-    static const struct ui_choice looks[] = {
-        [LOOK_WIGGLY] = {"wiggly", "Off"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
-    struct ui *ui = &in->ui;
-    struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
-    in->list = NULL;
-    ui_list_begin(ui, &in->sections, view);
-    const float offset = in->sections.offset, listed = in->lines.offset;
-    inspector_find_rig(in);
-    if (in->core->view.shows_poles) inspector_poles(in);
-    for (int i = 0; i < SECTIONS; i++) {
-        const struct section *section = &sections[i];
-        bool *flipped = &in->flipped[i];
-        if (i == FIRST) { // at a fixed place
-            const bool more = in->core->view.on[SWITCH_MORE];
-            const struct rect row = ui_row(ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
-            ui_hint(ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
-            if (ui_button(ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
-        }
-        // Shown if the scene has its subject and the user needs it now.
-        const struct core *core = in->core;
-        const struct spline *spline = core_active_spline(core);
-        unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
-        for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
-        if (characters_rig(core) >= 0) found |= SOFT;
-        if (section->needs && !(section->needs & found)) continue;
-        if (i >= FIRST && !core->view.on[SWITCH_MORE] && !in->called[i] && !(section->shown && section->shown(core)))
-            continue;
-        bool closed = *flipped != section->closed;
-        const float top = ui->y;
-        const bool open =
-            ui_section(ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
-        *flipped = closed != section->closed;
-        in->called[i] &= open;
-        if (!open) continue;
-        ui_push(ui, (uint32_t)i);
-        section->build(in);
-        ui_pop(ui);
-        ui_space(ui, 4);
-        if (!in->revealed || strcmp(in->revealed, section->name) != 0) continue;
-        in->revealed = NULL;
-        ui_list_show(&in->sections, top - ui->scroll_area.y + in->sections.offset, ui->y - top);
-    }
-    ui_space(ui, 4);
-    ui_list_end(ui);
-    struct ui_list next = in->sections;
-    ui_list_fit(&next, view.h, next.content);
-
-    const struct rect footer = {area.x, area.y + view.h, area.w, FOOTER};
-    const struct rect row = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
-    if (ui->pass == UI_PASS_DRAW) {
-        drawlist_rect(ui->list, footer, theme()->panel);
-        drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
-    }
-    ui_hint(ui, footer, "Show the same knots without lag (stiff), or as a cubic (V)");
-    int look = (int)in->core->view.look;
-    if (ui_segments(ui, inspector_label(in, row, "compare with"), "look", looks, 3, &look))
-        core_set_look(in->core, (enum look)look);
-    inspector_splines(in);
-    if (in->core->view.layout.range.w > 0) inspector_range(in);
-    inspector_offer(in, &inspector_add_list); // A works anywhere
-    if (in->list) in->list->build(in, in->list);
-    return roundf(next.offset) == offset && in->lines.offset == listed;
-}
-
-struct inspector *inspector_create(struct core *core)
-{
-    struct inspector *in = need_zeroed(1, sizeof *in);
-    in->core = core;
-    return in;
-}
-
-void inspector_destroy(struct inspector *in) { free(in); }
-
-const struct ui *inspector_ui(const struct inspector *in) { return &in->ui; }
-
-void inspector_reset(struct inspector *in)
-{
-    ui_release(&in->ui);
-    in->sections.offset = in->lines.offset = 0;
-    in->listed = 0;
-    in->rig = 0;
-    in->selected = 0;
-    in->channel = 0;
-    memset(in->called, 0, sizeof in->called);
-}
-
-/// Whether the panel handles the event. Without keyboard focus here, keys go to the editor.
-static bool concerns(const struct inspector *in, const struct event *event)
-{
-    const struct ui *ui = &in->ui;
-    const struct layout *layout = &in->core->view.layout;
-    const float x = event->x, y = event->y;
-    const bool inside = rect_contains(layout->inspector, x, y) || rect_contains(layout->list, x, y) ||
-                        rect_contains(layout->range, x, y);
-    if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
-    if (ui->popup.id) return event->kind <= EVENT_WHEEL;
-    switch (event->kind) {
-    case EVENT_KEY:
-        if (in->core->input.held_key && !ui->typing) return false; // a held letter and an arrow go to the editor
-        return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
-    case EVENT_TEXT:
-        return ui->typing || ui->focus;
-    case EVENT_POINTER:
-        return ui->held || inside;
-    case EVENT_BUTTON:
-        return ui->held || ui->typing || (inside && core_divider_at(in->core, x, y) == DIVIDER_NONE);
-    case EVENT_WHEEL:
-        return inside;
-    default:
-        return false;
-    }
-}
-
-bool inspector_event(struct inspector *in, const struct event *event)
-{
-    struct ui *ui = &in->ui;
-    struct rect area = in->core->view.layout.inspector;
-    if (!concerns(in, event)) {
-        if (event->kind == EVENT_SIZE) ui->popup.id = 0; // its anchor has moved
-        if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return false;
-        ui->pointer_x = event->x;
-        ui->pointer_y = event->y;
-        ui->hint = NULL;
-        if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
-        return false;
-    }
-    const bool press = event->action == ACTION_PRESS && (event->kind == EVENT_BUTTON || event->kind == EVENT_KEY);
-    if (press && !ui->typing) in->alone = event->mods & MOD_ALT;
-    bool was_dragging = ui->held && ui->moved;
-    ui_begin_event(ui, area, event);
-    build_panel(in, area);
-    bool used = ui_end(ui);
-    const bool is_open = history_is_open(in->core->history);
-    if (was_dragging && !ui->held) in->core->step.ends = is_open;
-    if (inspector_is_dragging(in) && is_open && !in->core->step.ends) {
-        core_keep_following(in->core);
-        core_settle(in->core);
-    }
-    if (ui->complaint[0]) {
-        core_message(in->core, true, "%s", ui->complaint);
-        ui->complaint[0] = '\0';
-    }
-    bool inside = rect_contains(area, ui->pointer_x, ui->pointer_y);
-    bool pointer = event->kind == EVENT_POINTER || event->kind == EVENT_WHEEL ||
-                   (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS);
-    return used || (pointer && inside);
-}
-
-void inspector_show(struct inspector *in, bool covered)
-{
-    struct rect area = in->core->view.layout.inspector;
-    if (covered) in->ui.pointer_x = area.x - 1; // nothing here is under the pointer
-    const struct bone_selection *bone = &in->core->focus.bone, *seen = &in->seen_bone;
-    const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
-    in->seen_bone = *bone;
-    if (!same && bone->any) inspector_unfold(in, "section.character");
-    struct drawlist *list = &in->core->list;
-    const struct drawlist below = *list;
-    bool fits = false;
-    for (int pass = 0; pass < 2 && !fits; pass++) { // seldom twice
-        *list = below;
-        drawlist_rect(list, area, theme()->panel);
-        ui_begin_draw(&in->ui, area, list);
-        fits = build_panel(in, area);
-        ui_end(&in->ui);
-    }
-}
-
-void inspector_let_go(struct inspector *in)
-{
-    if (inspector_is_dragging(in) && history_is_open(in->core->history)) in->core->step.ends = true;
-    core_close(in->core);
-    ui_release(&in->ui);
-}
-
-bool inspector_is_dragging(const struct inspector *in) { return in->ui.held && in->ui.moved; }
-
-bool inspector_target(struct inspector *in, const char *name, float *x, float *y)
-{
-    char widget[UI_NAME_SIZE];
-    snprintf(widget, sizeof widget, "%s", name);
-    char *comma = strrchr(widget, ',');
-    double value = 0;
-    if (comma) {
-        char *end;
-        value = strtod(comma + 1, &end);
-        if (end == comma + 1 || *end || !isfinite(value)) return false;
-        *comma = '\0';
-    }
-    ui_begin_find(&in->ui, in->core->view.layout.inspector, widget, comma ? &value : NULL);
-    build_panel(in, in->core->view.layout.inspector);
-    bool found = ui_end(&in->ui);
-    *x = in->ui.found_x;
-    *y = in->ui.found_y;
-    return found;
-}
 
 /// Whether a change is finished, not a step of a drag.
 static bool is_finished(enum ui_change change) { return change == UI_DROP || change == UI_SET || change == UI_NUDGE; }
@@ -534,7 +269,7 @@ static const struct number_row scene_rows[SCENE_ROWS] = {
 
 // Range and frame rate are at the ruler's end, above the splines' list, or if that is narrow, in the panel.
 
-void inspector_range(struct inspector *in)
+static void build_range(struct inspector *in)
 {
     static const float shares[SCENE_ROWS] = {[ROW_FIRST] = 0.28f, [ROW_LAST] = 0.3f, [ROW_RATE] = 0.42f};
     struct ui *ui = &in->ui;
@@ -577,7 +312,7 @@ static bool set_offset(struct inspector *in, int which, double number, struct er
     return edit_background(in->core->document, &changed, error);
 }
 
-void inspector_scene(struct inspector *in)
+static void build_scene(struct inspector *in)
 {
     static const struct number_row offset = {WHOLE_AT(struct background_file, offset), .undo = "Move background",
                                              .ui = {NAMED("background.offset", "offset"),
@@ -585,7 +320,7 @@ void inspector_scene(struct inspector *in)
                                                     TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .step = 1}};
     static const struct row remover = {ICON("background.delete", UI_ICON_DELETE), .hint = "Remove the background",
                                        .undo = "Remove background"};
-    if (in->core->view.layout.range.w == 0) inspector_range(in);
+    if (in->core->view.layout.range.w == 0) build_range(in);
 
     const struct background_file *background = &in->core->document->background;
     static const struct row adder = {NAMED("background.add", "Background picture or film"),
@@ -617,7 +352,7 @@ static void go_to(struct inspector *in, size_t row)
 }
 
 /// Row 0 is the state before the oldest step, row n the state after step n.
-void inspector_history(struct inspector *in)
+static void build_history(struct inspector *in)
 {
     const struct history *history = in->core->history;
     struct history_view *view = &in->history;
@@ -842,7 +577,8 @@ static void build_field(struct inspector *in, int field, bool one)
     }
 }
 
-const char *inspector_knot_title(struct inspector *in)
+/// Says how many knots are selected.
+static const char *knot_title(struct inspector *in)
 {
     const struct simplify *cleaning = in->core->cleaning.of;
     const int count = selected_count(in->core);
@@ -853,7 +589,7 @@ const char *inspector_knot_title(struct inspector *in)
 }
 
 /// Has the same height for nearly every selection, so that nothing below moves.
-void inspector_knot(struct inspector *in)
+static void build_knot(struct inspector *in)
 {
     struct ui *ui = &in->ui;
     const struct spline *spline = core_active_spline(in->core);
@@ -938,7 +674,7 @@ static bool set_pin(struct inspector *in, int which, double number, struct error
     return pins_set(in->core->document, rig, &pin, error);
 }
 
-void inspector_pins(struct inspector *in)
+static void build_pins(struct inspector *in)
 {
     struct ui *ui = &in->ui;
     struct core *core = in->core;
@@ -1000,4 +736,271 @@ void inspector_pins(struct inspector *in)
         const enum ui_change change = inspector_number(in, &number, &home, field, ui_row(ui, UI_ROW));
         if (is_finished(change)) pins_tell(core, owner);
     }
+}
+
+// The panel.
+
+enum { FOOTER = 40 }; ///< height of the look switch, which does not scroll
+
+static const char *tail_title(struct inspector *in)
+{
+    const struct rig *shown = inspector_shown(in);
+    return shown && shown->kind == RIG_CHAIN ? "Chain set-up" : "Tail set-up";
+}
+
+/// What a section needs, one of: a kind of rig, the active spline, a swinging spline.
+enum {
+    TAILS = 1 << RIG_TAIL,
+    CHAINS = 1 << RIG_CHAIN,
+    MODELS = 1 << RIG_MODEL,
+    SPLINE = 1 << RIG_KINDS,
+    SWING = SPLINE << 1,
+    SOFT = SPLINE << 2, ///< a character with coordinates
+};
+
+/// Without a spline the rigs matter more.
+static bool has_no_spline(const struct core *core) { return core_active_spline(core) == NULL; }
+
+static bool has_bone_or_brush(const struct core *core)
+{
+    return has_no_spline(core) || core->focus.bone.any || core->focus.pick.use != BONE_SELECTED ||
+           core->focus.brush.on;
+}
+
+/// In order. Replays address headers by `name`.
+static const struct section {
+    const char *name;
+    void (*build)(struct inspector *in);
+    const char *title;
+    const char *(*titled)(struct inspector *in); ///< replaces a fixed title
+    unsigned needs;                              ///< shown if one of these is there; 0: always
+    bool (*shown)(const struct core *core);      ///< shown without More, as the first ones are; NULL: only on request
+    bool closed;                                 ///< initially
+} sections[] = {
+    {"section.feel", inspector_feel, .titled = inspector_feel_title, .needs = SPLINE},
+    {"section.knot", build_knot, .titled = knot_title, .needs = SPLINE},
+    {"section.spline", inspector_spline, .title = "Spline", .needs = SPLINE},
+    {"section.rigs", inspector_rigs, .title = "Rigs", .shown = has_no_spline},
+    {"section.tail", inspector_tail, .titled = tail_title, .needs = TAILS | CHAINS},
+    {"section.character", inspector_character, .title = "Character", .needs = MODELS, .shown = has_bone_or_brush},
+    {"section.pins", build_pins, .title = "Pins", .needs = TAILS | CHAINS | SOFT, .shown = pins_any_selected},
+    {"section.advanced", inspector_advanced, .title = "Advanced", .needs = SPLINE, .closed = true},
+    {"section.limits", inspector_limits, .title = "Limits and steadiness", .needs = SPLINE, .closed = true},
+    {"section.variation", inspector_variation, .title = "Variation", .needs = SWING, .closed = true},
+    {"section.scene", build_scene, .title = "Scene", .closed = true},
+    {"section.history", build_history, .title = "History", .closed = true}, // last: its height changes
+};
+
+enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 2 /* always shown */ };
+
+_Static_assert(SECTIONS <= (int)INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
+
+void inspector_unfold(struct inspector *in, const char *name)
+{
+    for (int i = 0; i < SECTIONS; i++) {
+        if (strcmp(sections[i].name, name) != 0) continue;
+        in->called[i] = true;
+        in->flipped[i] = sections[i].closed;
+        in->revealed = sections[i].name; // the next pass scrolls there
+    }
+}
+
+/// false if the sections no longer fit where they were laid out: a shorter panel was scrolled past its end, or one was to be revealed.
+static bool build_panel(struct inspector *in, struct rect area)
+{
+    static const struct ui_choice looks[] = {
+        [LOOK_WIGGLY] = {"wiggly", "Off"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
+    struct ui *ui = &in->ui;
+    struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
+    in->list = NULL;
+    ui_list_begin(ui, &in->sections, view);
+    const float offset = in->sections.offset, listed = in->lines.offset;
+    inspector_find_rig(in);
+    if (in->core->view.shows_poles) inspector_poles(in);
+    for (int i = 0; i < SECTIONS; i++) {
+        const struct section *section = &sections[i];
+        bool *flipped = &in->flipped[i];
+        if (i == FIRST) { // at a fixed place
+            const bool more = in->core->view.on[SWITCH_MORE];
+            const struct rect row = ui_row(ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
+            ui_hint(ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
+            if (ui_button(ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
+        }
+        // Shown if the scene has its subject and the user needs it now.
+        const struct core *core = in->core;
+        const struct spline *spline = core_active_spline(core);
+        unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
+        for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
+        if (characters_rig(core) >= 0) found |= SOFT;
+        if (section->needs && !(section->needs & found)) continue;
+        if (i >= FIRST && !core->view.on[SWITCH_MORE] && !in->called[i] && !(section->shown && section->shown(core)))
+            continue;
+        bool closed = *flipped != section->closed;
+        const float top = ui->y;
+        const bool open =
+            ui_section(ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
+        *flipped = closed != section->closed;
+        in->called[i] &= open;
+        if (!open) continue;
+        ui_push(ui, (uint32_t)i);
+        section->build(in);
+        ui_pop(ui);
+        ui_space(ui, 4);
+        if (!in->revealed || strcmp(in->revealed, section->name) != 0) continue;
+        in->revealed = NULL;
+        ui_list_show(&in->sections, top - ui->scroll_area.y + in->sections.offset, ui->y - top);
+    }
+    ui_space(ui, 4);
+    ui_list_end(ui);
+    struct ui_list next = in->sections;
+    ui_list_fit(&next, view.h, next.content);
+
+    const struct rect footer = {area.x, area.y + view.h, area.w, FOOTER};
+    const struct rect row = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
+    if (ui->pass == UI_PASS_DRAW) {
+        drawlist_rect(ui->list, footer, theme()->panel);
+        drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
+    }
+    ui_hint(ui, footer, "Show the same knots without lag (stiff), or as a cubic (V)");
+    int look = (int)in->core->view.look;
+    if (ui_segments(ui, inspector_label(in, row, "compare with"), "look", looks, 3, &look))
+        core_set_look(in->core, (enum look)look);
+    inspector_splines(in);
+    if (in->core->view.layout.range.w > 0) build_range(in);
+    inspector_offer(in, &inspector_add_list); // A works anywhere
+    if (in->list) in->list->build(in, in->list);
+    return roundf(next.offset) == offset && in->lines.offset == listed;
+}
+
+struct inspector *inspector_create(struct core *core)
+{
+    struct inspector *in = need_zeroed(1, sizeof *in);
+    in->core = core;
+    return in;
+}
+
+void inspector_destroy(struct inspector *in) { free(in); }
+
+const struct ui *inspector_ui(const struct inspector *in) { return &in->ui; }
+
+void inspector_reset(struct inspector *in)
+{
+    ui_release(&in->ui);
+    in->sections.offset = in->lines.offset = 0;
+    in->listed = 0;
+    in->rig = 0;
+    in->selected = 0;
+    in->channel = 0;
+    memset(in->called, 0, sizeof in->called);
+}
+
+/// Whether the panel handles the event. Without keyboard focus here, keys go to the editor.
+static bool concerns(const struct inspector *in, const struct event *event)
+{
+    const struct ui *ui = &in->ui;
+    const struct layout *layout = &in->core->view.layout;
+    const float x = event->x, y = event->y;
+    const bool inside = rect_contains(layout->inspector, x, y) || rect_contains(layout->list, x, y) ||
+                        rect_contains(layout->range, x, y);
+    if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
+    if (ui->popup.id) return event->kind <= EVENT_WHEEL;
+    switch (event->kind) {
+    case EVENT_KEY:
+        if (in->core->input.held_key && !ui->typing) return false; // a held letter and an arrow go to the editor
+        return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
+    case EVENT_TEXT:
+        return ui->typing || ui->focus;
+    case EVENT_POINTER:
+        return ui->held || inside;
+    case EVENT_BUTTON:
+        return ui->held || ui->typing || (inside && core_divider_at(in->core, x, y) == DIVIDER_NONE);
+    case EVENT_WHEEL:
+        return inside;
+    default:
+        return false;
+    }
+}
+
+bool inspector_event(struct inspector *in, const struct event *event)
+{
+    struct ui *ui = &in->ui;
+    struct rect area = in->core->view.layout.inspector;
+    if (!concerns(in, event)) {
+        if (event->kind == EVENT_SIZE) ui->popup.id = 0; // its anchor has moved
+        if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return false;
+        ui->pointer_x = event->x;
+        ui->pointer_y = event->y;
+        ui->hint = NULL;
+        if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
+        return false;
+    }
+    const bool press = event->action == ACTION_PRESS && (event->kind == EVENT_BUTTON || event->kind == EVENT_KEY);
+    if (press && !ui->typing) in->alone = event->mods & MOD_ALT;
+    bool was_dragging = ui->held && ui->moved;
+    ui_begin_event(ui, area, event);
+    build_panel(in, area);
+    bool used = ui_end(ui);
+    const bool is_open = history_is_open(in->core->history);
+    if (was_dragging && !ui->held) in->core->step.ends = is_open;
+    if (inspector_is_dragging(in) && is_open && !in->core->step.ends) {
+        core_keep_following(in->core);
+        core_settle(in->core);
+    }
+    if (ui->complaint[0]) {
+        core_message(in->core, true, "%s", ui->complaint);
+        ui->complaint[0] = '\0';
+    }
+    bool inside = rect_contains(area, ui->pointer_x, ui->pointer_y);
+    bool pointer = event->kind == EVENT_POINTER || event->kind == EVENT_WHEEL ||
+                   (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS);
+    return used || (pointer && inside);
+}
+
+void inspector_show(struct inspector *in, bool covered)
+{
+    struct rect area = in->core->view.layout.inspector;
+    if (covered) in->ui.pointer_x = area.x - 1; // nothing here is under the pointer
+    const struct bone_selection *bone = &in->core->focus.bone, *seen = &in->seen_bone;
+    const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
+    in->seen_bone = *bone;
+    if (!same && bone->any) inspector_unfold(in, "section.character");
+    struct drawlist *list = &in->core->list;
+    const struct drawlist below = *list;
+    bool fits = false;
+    for (int pass = 0; pass < 2 && !fits; pass++) { // seldom twice
+        *list = below;
+        drawlist_rect(list, area, theme()->panel);
+        ui_begin_draw(&in->ui, area, list);
+        fits = build_panel(in, area);
+        ui_end(&in->ui);
+    }
+}
+
+void inspector_let_go(struct inspector *in)
+{
+    if (inspector_is_dragging(in) && history_is_open(in->core->history)) in->core->step.ends = true;
+    core_close(in->core);
+    ui_release(&in->ui);
+}
+
+bool inspector_is_dragging(const struct inspector *in) { return in->ui.held && in->ui.moved; }
+
+bool inspector_target(struct inspector *in, const char *name, float *x, float *y)
+{
+    char widget[UI_NAME_SIZE];
+    snprintf(widget, sizeof widget, "%s", name);
+    char *comma = strrchr(widget, ',');
+    double value = 0;
+    if (comma) {
+        char *end;
+        value = strtod(comma + 1, &end);
+        if (end == comma + 1 || *end || !isfinite(value)) return false;
+        *comma = '\0';
+    }
+    ui_begin_find(&in->ui, in->core->view.layout.inspector, widget, comma ? &value : NULL);
+    build_panel(in, in->core->view.layout.inspector);
+    bool found = ui_end(&in->ui);
+    *x = in->ui.found_x;
+    *y = in->ui.found_y;
+    return found;
 }

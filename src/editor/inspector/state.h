@@ -50,23 +50,16 @@ void inspector_poles(struct inspector *in);
 enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list
 
 /// The sections. Each builds the rows below its header; inspector.c has the table.
-void inspector_scene(struct inspector *in);
-void inspector_range(struct inspector *in);
 void inspector_feel(struct inspector *in);
 void inspector_rigs(struct inspector *in);
 void inspector_spline(struct inspector *in);
 void inspector_advanced(struct inspector *in);
 void inspector_limits(struct inspector *in);
 void inspector_variation(struct inspector *in);
-void inspector_knot(struct inspector *in);
 void inspector_tail(struct inspector *in);
 void inspector_character(struct inspector *in);
-void inspector_pins(struct inspector *in);
-void inspector_history(struct inspector *in);
 /// The splines' list, left of the curves.
 void inspector_splines(struct inspector *in);
-/// The title says how many knots are selected.
-const char *inspector_knot_title(struct inspector *in);
 
 /// core_limb(), or -1 if Alt was held at the press.
 int inspector_limb(const struct inspector *in);
