@@ -562,30 +562,24 @@ void inspector_limits(struct inspector *in)
 /// First amount of a roll.
 static const double FRESH_VARIATION = 0.3;
 
-static const struct row roll_row = {NAMED("variation.roll", "Roll"), .hint = "Another motion through the same knots",
-                                    .undo = "Roll variation"};
-
-/// Another seed, and an amount if there was none.
-static void roll(struct inspector *in)
+void inspector_roll(struct inspector *in, int unused)
 {
+    // Another seed, and an amount if there was none.
     const struct spline *spline = core_active_spline(in->core);
     const int most = (int)parameter_rows[PARAMETER_SEED].maximum + 1;
     const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
     const bool is_new = spline->parameter[PARAMETER_VARIATION].value == 0;
     const int active = in->core->focus.active;
+    (void)unused;
+    if (!core_step(in->core, "Roll variation", 0)) return;
     core_set_parameter(in->core, active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
     if (is_new) core_set_parameter(in->core, active, PARAMETER_VARIATION, FRESH_VARIATION);
-    core_edited(in->core, in->core->focus.active);
-}
-
-void inspector_roll(struct inspector *in, int unused)
-{
-    (void)unused;
-    if (core_step(in->core, roll_row.undo, 0)) roll(in);
+    core_edited(in->core, active);
 }
 
 void inspector_variation(struct inspector *in)
 {
+    static const struct row roll = {NAMED("variation.roll", "Roll"), .hint = "Another motion through the same knots"};
     const struct spline *spline = core_active_spline(in->core);
     const struct param *p = spline->parameter;
     const char *reason = NULL; // why it is not visible
@@ -599,6 +593,6 @@ void inspector_variation(struct inspector *in)
     struct rect r = ui_row(&in->ui, UI_ROW), button = {r.x + r.w - 64, r.y + 2, 64, r.h - 4};
     r.w -= 70;
     build_number(in, PARAMETER_SEED, r);
-    if (inspector_button(in, button, &roll_row)) roll(in);
+    if (inspector_button(in, button, &roll)) inspector_roll(in, 0);
     if (reason) ui_paragraph(&in->ui, reason, theme()->text_dim);
 }

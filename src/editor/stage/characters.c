@@ -1,10 +1,8 @@
 /// Soft characters on the stage: the legend of their phases, their floors, and the brush.
 /// It works like an airbrush: a stroke adds flow × time to every vertex under it.
 #include "base/error.h"
-#include "base/hash.h"
 #include "base/names.h"
 #include "editor/core/core.h"
-#include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"
 #include "model/vector.h"

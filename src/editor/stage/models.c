@@ -1,9 +1,7 @@
 /// Characters on the stage: posing, the posed surface of a soft one for hover, and their bones: hover, clicks and drawing.
 #include "base/hash.h"
 #include "base/names.h"
-#include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"
 #include "model/figure.h"
@@ -11,7 +9,6 @@
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { FEET = 8 };

@@ -4,7 +4,6 @@
 
 #include "editor/core/state.h"
 #include "model/figure.h"
-#include "rig/camera.h"
 #include "rig/models.h"
 #include "rig/posing.h"
 #include "rig/swing.h"

@@ -11,7 +11,6 @@
 /// curved way there the change still stays within twice what the best direction needs.
 #include "base/names.h"
 #include "editor/core/core.h"
-#include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"
 #include "model/vector.h"
