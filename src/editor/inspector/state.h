@@ -9,11 +9,6 @@
 
 enum { INSPECTOR_MAX_SECTIONS = 16 };
 
-struct history_view {
-    struct ui_list list; ///< in rows
-    size_t count, done;  ///< of the history at the last layout
-};
-
 /// The inspector's view state. Zero except `core` is a valid start.
 struct inspector {
     struct core *core;
@@ -37,7 +32,10 @@ struct inspector {
     char knot_title[32];                  ///< title of the knot section
     char feel_title[96];                  ///< of that on the feel
     bool alone;                           ///< Alt was held at the last press: Feel is of the active spline alone
-    struct history_view history;
+    struct history_view {
+        struct ui_list list; ///< in rows
+        size_t count, done;  ///< of the history at the last layout
+    } history;
     const struct dropdown *list; ///< open in this pass, or NULL
 };
 

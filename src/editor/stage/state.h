@@ -80,23 +80,6 @@ struct body_drag {
 
 enum { RECORD_SAMPLES = 8192 };
 
-/// The recorded path of the held body.
-struct record {
-    bool running;                  ///< until the end of the played range
-    int first, count;              ///< samples
-    double way[3][RECORD_SAMPLES]; ///< metres from the place in the document
-    double seen_position, seen[3]; ///< at the last frame
-};
-
-/// A tail or chain whose body is or was moved by hand.
-struct drag_inertia {
-    unsigned rig; ///< id; 0: none
-    bool swings;
-    double offset[3], velocity[3];            ///< of the base relative to the document, metres and m/s
-    struct swing channel[SCENE_MAX_CHANNELS]; ///< in metres
-    double scale[SCENE_MAX_CHANNELS];         ///< swing_scale() of each
-};
-
 /// A moving point of a rig: the end of a tail's or chain's joint, or a character's vertex.
 struct rig_point {
     int rig; ///< index in the document
@@ -110,61 +93,6 @@ enum { TRAIL_FRAMES = 256 };
 /// The arcs that can be shown together.
 enum trail { TRAIL_OF_TIP, TRAIL_OF_PIN, TRAIL_OF_BODY, TRAILS };
 
-/// The vertex that moves most, cached for the last figure.
-struct liveliest {
-    uint64_t figure, version; ///< the figure's id; 0: none
-    int vertex;
-};
-
-/// A point of a rig at a frame, cached for the document state `key`.
-struct trail_point {
-    uint64_t key; ///< 0: none
-    int frame;
-    float place[3];
-};
-
-/// The posed surface of the character or fox last pointed at, with room for `capacity` vertices.
-struct skin {
-    int capacity;
-    float (*posed)[3]; ///< world positions
-    uint64_t hash;     ///< of the stage and character that `posed` shows
-};
-
-/// The last surface point found, with pointer and picture.
-struct pointed {
-    float x, y;
-    uint64_t hash; ///< of the stage
-    struct hover hover;
-};
-
-/// The pin that is dragged.
-struct pin_drag {
-    struct rig_point point;
-    double frame;
-    double start[3];         ///< world, metres
-    int axis;                ///< locked axis; −1: none
-    double right[3], up[3];  ///< of the screen, world
-    double pixels_per_metre; ///< there
-};
-
-/// The dragged floor.
-struct floor_drag {
-    int rig; ///< index in the document
-    double start, pixels_per_metre;
-};
-
-/// Memory for up to `capacity` vertices.
-struct brush_work {
-    struct pool pool;
-    int capacity;
-    struct reach reach;
-    int *vertices; ///< of a dab, and their new values
-    float (*values)[2];
-    float *steps;       ///< the next smoothing steps
-    float (*turned)[2]; ///< complex factor of each vertex by smoothing in this frame; 1 elsewhere
-    float *spent;       ///< change of each vertex's phase or amplitude by this stroke
-};
-
 /// The brush's state.
 struct painting {
     enum brush_mode stroke; ///< the running stroke's mode, after Shift and Ctrl
@@ -172,7 +100,16 @@ struct painting {
     struct surface_spot spot;
     float x, y;      ///< pointer in the last frame of the stroke
     bool has_dabbed; ///< the stroke has painted in a frame
-    struct brush_work work;
+    struct brush_work {
+        struct pool pool;
+        int capacity;
+        struct reach reach;
+        int *vertices; ///< of a dab, and their new values
+        float (*values)[2];
+        float *steps;       ///< the next smoothing steps
+        float (*turned)[2]; ///< complex factor of each vertex by smoothing in this frame; 1 elsewhere
+        float *spent;       ///< change of each vertex's phase or amplitude by this stroke
+    } work;                 ///< memory for up to `capacity` vertices
 };
 
 struct stage {
@@ -186,15 +123,51 @@ struct stage {
     struct hover pressed; ///< where the current drag began
     struct tail_drag tail_drag;
     struct body_drag body_drag;
-    struct record record;
-    struct drag_inertia inertia[STAGE_MAX_STRANDS];
-    struct trail_point trail[TRAILS][TRAIL_FRAMES];
-    struct liveliest liveliest;
-    struct skin skin;
+    struct record {
+        bool running;                  ///< until the end of the played range
+        int first, count;              ///< samples
+        double way[3][RECORD_SAMPLES]; ///< metres from the place in the document
+        double seen_position, seen[3]; ///< at the last frame
+    } record;                          ///< the recorded path of the held body
+    struct drag_inertia {
+        unsigned rig; ///< id; 0: none
+        bool swings;
+        double offset[3], velocity[3];            ///< of the base relative to the document, metres and m/s
+        struct swing channel[SCENE_MAX_CHANNELS]; ///< in metres
+        double scale[SCENE_MAX_CHANNELS];         ///< swing_scale() of each
+    } inertia[STAGE_MAX_STRANDS];                 ///< of tails and chains whose body is or was moved by hand
+    struct trail_point {
+        uint64_t key; ///< 0: none
+        int frame;
+        float place[3];
+    } trail[TRAILS][TRAIL_FRAMES]; ///< points of a rig at a frame, cached for the document state `key`
+    struct liveliest {
+        uint64_t figure, version; ///< the figure's id; 0: none
+        int vertex;
+    } liveliest; ///< the vertex that moves most, cached for the last figure
+    struct skin {
+        int capacity;
+        float (*posed)[3]; ///< world positions
+        uint64_t hash;     ///< of the stage and character that `posed` shows
+    } skin; ///< the posed surface of the character or fox last pointed at, with room for `capacity` vertices
     struct silhouette silhouette; ///< the current outline
-    struct pointed pointed;
-    struct pin_drag pin_drag;
-    struct floor_drag floor_drag;
+    struct pointed {
+        float x, y;
+        uint64_t hash; ///< of the stage
+        struct hover hover;
+    } pointed; ///< the last surface point found, with pointer and picture
+    struct pin_drag {
+        struct rig_point point;
+        double frame;
+        double start[3];         ///< world, metres
+        int axis;                ///< locked axis; −1: none
+        double right[3], up[3];  ///< of the screen, world
+        double pixels_per_metre; ///< there
+    } pin_drag;                  ///< the pin that is dragged
+    struct floor_drag {
+        int rig; ///< index in the document
+        double start, pixels_per_metre;
+    } floor_drag; ///< the dragged floor
     struct painting painting;
 };
 
