@@ -169,9 +169,11 @@ static void base_put_knot(struct core *core, int spline, int sample, double valu
     struct knot knot = core_knot_at(core->document, spline, sample);
     knot.value = core_round(value, RESOLUTION);
     core_hold(core->document->splines[spline], &knot, why);
-    knot.has_slope = level;
-    knot.slope = 0;
-    knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
+    if (level) {
+        knot.has_slope = true;
+        knot.slope = 0;
+        knot.stiffness = RECORD_STIFFNESS;
+    }
     core_put_knot(core, spline, &knot);
 }
 
@@ -208,10 +210,8 @@ static double base_value(const struct core *core, int rig, int coordinate, int s
 {
     const struct tail *moved = tail_of(core->document, rig);
     const struct param *param = &moved->position[coordinate];
-    if (param->track >= 0) {
-        const wiggly_value value = evaluation_at(core->evaluation, param->track, sample);
-        return value.y + value.re;
-    }
+    const wiggly_value value = evaluation_at(core->evaluation, param->track, sample);
+    if (param->track >= 0) return value.y + value.re;
     // A fixed height stands for the ground; a height that follows a spline is above 0.
     return coordinate == 1 ? moved->length * (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) : param->value;
 }
@@ -427,9 +427,8 @@ static int key_way(const struct stage *stage, struct core *core, int coordinate,
                  document_sample(document, cleared->knots[at].frame) <= record->first + count - 1 &&
                  edit_knot_remove(core->document, spline, cleared->knots[at].id, &core->step.error);
     }
-    for (int i = 0; i < made; i++) {
+    for (int i = 0; i < made; i++)
         base_put_knot(core, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1, why);
-    }
     if (is_new && !stage->body_drag.loops) {
         if (record->first > 1) base_put_knot(core, spline, 0, way[0], true, why);
         if (record->first + count < last) base_put_knot(core, spline, last, way[count - 1], true, why);
@@ -450,11 +449,8 @@ static void show_sign(struct core *core, bool runs, const char *text)
                               stage.y + fmaxf(MARGIN, caption_height(stage, core->document)), width, HEIGHT};
     const struct rect dot = {sign.x + PAD, sign.y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
     drawlist_rounded(&core->list, sign, HEIGHT / 2.0f, theme()->panel);
-    if (runs) {
-        drawlist_rounded(&core->list, dot, DOT / 2.0f, theme()->error);
-    } else {
-        drawlist_rounded_line(&core->list, dot, DOT / 2.0f, 1.5f, theme()->error);
-    }
+    if (runs) drawlist_rounded(&core->list, dot, DOT / 2.0f, theme()->error);
+    if (!runs) drawlist_rounded_line(&core->list, dot, DOT / 2.0f, 1.5f, theme()->error);
     drawlist_text(&core->list, dot.x + DOT + PAD, sign.y + HEIGHT - 7, FONT_LABEL_BOLD, THEME_TEXT_NORMAL,
                   theme()->error, text);
 }
@@ -545,16 +541,9 @@ static void place_body(struct stage *stage, struct core *core)
             if (spline < 0) continue;
             const int sample = sample_of(core, spline);
             const double before = base_value(core, rig, k, sample);
-            if (is_new) {
-                if (sample > 1) base_put_knot(core, spline, 0, before, true, why);
-                base_put_knot(core, spline, sample, before + offset[k], true, why);
-                base_follow(stage, core, k, spline, &swings);
-            } else {
-                struct knot knot = core_knot_at(core->document, spline, sample);
-                knot.value = core_round(before + offset[k], RESOLUTION);
-                core_hold(core->document->splines[spline], &knot, why);
-                core_put_knot(core, spline, &knot);
-            }
+            if (is_new && sample > 1) base_put_knot(core, spline, 0, before, true, why);
+            base_put_knot(core, spline, sample, before + offset[k], is_new, why);
+            if (is_new) base_follow(stage, core, k, spline, &swings);
             core_edited(core, spline);
             if (tail_of(core->document, rig)->position[k].track < 0) continue;
             say(report, "%s%s", any ? ", " : "", core->document->splines[spline]->name);
