@@ -477,8 +477,8 @@ void inspector_tail(struct inspector *in)
         for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
     } else {
         const struct chain *chain = &inspector_shown(in)->chain;
-        inspector_bone_field(in, &from_list, ui_row(ui, UI_ROW), in->rig, chain->from, in->rig);
-        inspector_bone_field(in, &to_list, ui_row(ui, UI_ROW), in->rig, chain->to, in->rig);
+        inspector_bone_field(in, &from_list, ui_row(ui, UI_ROW), chain->from, in->rig);
+        inspector_bone_field(in, &to_list, ui_row(ui, UI_ROW), chain->to, in->rig);
         inspector_numbers(in, &tail_rows[ROW_TURN], 1, &home);
 
         struct rig changed = *inspector_shown(in);

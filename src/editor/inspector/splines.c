@@ -114,30 +114,6 @@ static void choose_line(struct core *core, struct line line, bool keeps)
         selection_set(selection, core->document->splines[s]->id, extends || !adds || !is_in);
 }
 
-/// Where dropped rows go: before a spline, into a folder or NULL; and the row that they then lie above.
-struct landing {
-    int to;
-    const char *folder;
-    int row;
-};
-
-/// Where rows dropped at a height, in rows, go. On a folder's header they go in; below its last row they leave it, unless they come from there.
-static struct landing land(const struct core *core, float height)
-{
-    const struct document *document = core->document;
-    int row = 0;
-    struct line above = {.first = -1}, line = next_line(core, (struct line){0});
-    for (; line.first < document->spline_count && height > (float)row + (line.is_header ? 0.25f : 0.5f); row++) {
-        above = line;
-        line = next_line(core, line);
-    }
-    const bool enters = above.is_header && height < (float)row;
-    const bool stays = height < (float)row + 0.5f && !above.is_header &&
-                       spline_list_together(document, above.first, core->focus.active);
-    const bool within = enters || stays || spline_list_together(document, above.first, line.first);
-    return (struct landing){line.first, within ? document->splines[above.first]->folder : NULL, row};
-}
-
 /// A row: colour or triangle, name, eye and lock. The buttons are there while the pointer is on it, and on the active row for keyboard and
 /// fingers; a closed eye or lock always.
 static enum ui_row_event build_line(struct inspector *in, struct line line, struct rect r, const char *id)
@@ -235,7 +211,21 @@ void inspector_splines(struct inspector *in)
     ui_push(ui, SCOPE);
     ui_list_begin(ui, &in->lines, area);
     const float top = ui->y;
-    const struct landing landing = land(core, (ui->pointer_y - top) / UI_ROW);
+
+    // Where dropped rows go: above a row, before a spline, into a folder or NULL. On a folder's header they go in; below its last row they
+    // leave it, unless they come from there.
+    const float height = (ui->pointer_y - top) / UI_ROW;
+    int above_row = 0;
+    struct line above = {.first = -1}, below = next_line(core, (struct line){0});
+    for (; below.first < document->spline_count; above_row++, below = next_line(core, below)) {
+        if (height <= (float)above_row + (below.is_header ? 0.25f : 0.5f)) break;
+        above = below;
+    }
+    const bool enters = above.is_header && height < (float)above_row;
+    const bool stays = height < (float)above_row + 0.5f && !above.is_header &&
+                       spline_list_together(document, above.first, core->focus.active);
+    const bool within = enters || stays || spline_list_together(document, above.first, below.first);
+    const char *folder = within ? document->splines[above.first]->folder : NULL;
     const bool presses = event && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && !ui->used;
     bool dragged = false, scrolls = false;
     struct line dropped = {0};
@@ -268,7 +258,7 @@ void inspector_splines(struct inspector *in)
     ui_space(ui, UI_ROW);
     if (ui_icon_button(ui, last, "splines.add", UI_ICON_ADD, false, "Add a spline with a knot at the playhead"))
         spline_list_change(core, LIST_ADD);
-    const float y = top + (float)landing.row * UI_ROW, left = area.x + (landing.folder ? 6 + INDENT : 6);
+    const float y = top + (float)above_row * UI_ROW, left = area.x + (folder ? 6 + INDENT : 6);
     if (dragged && ui->pass == UI_PASS_DRAW)
         drawlist_rect(ui->list, (struct rect){left, y - 1, area.x + area.w - 6 - left, 2}, theme()->accent);
     if (dragged && event && ui->pointer_y < area.y + UI_ROW / 2.0f) ui_list_scroll(&in->lines, -UI_ROW);
@@ -277,10 +267,10 @@ void inspector_splines(struct inspector *in)
     ui_pop(ui);
     ui->clip = panel;
     if (ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, panel);
-    int to = landing.to; // no folder goes into another
+    int to = below.first; // no folder goes into another
     while (dropped.is_header && spline_list_together(document, to - 1, to)) to++;
     if (dropped.end > 0)
-        spline_list_place(core, to, dropped.is_header ? document->splines[dropped.first]->folder : landing.folder);
+        spline_list_place(core, to, dropped.is_header ? document->splines[dropped.first]->folder : folder);
     inspector_offer(in, &palette);
     if (ui_popup_is_open(ui, palette.name))
         ui->popup.room = (struct rect){0, 0, core->view.layout.window.w, core->view.layout.status.y};

@@ -89,11 +89,9 @@ static void drag_inertia_advance(struct stage *stage, const struct core *core, d
             struct swing_filter filter;
             double direction[3], parameter[PARAMETER_COUNT]; // at the playhead, those that follow splines too
             for (int p = 0; p < PARAMETER_COUNT; p++) {
-                const struct param *param = &spline->parameter[p];
-                wiggly_value value = {.y = param->value};
-                if (param->track >= 0)
-                    value = evaluation_at(core->evaluation, param->track, core->view.playback.position);
-                parameter[p] = value.y + value.re;
+                const int track = spline->parameter[p].track;
+                const wiggly_value now = evaluation_at(core->evaluation, track, core->view.playback.position);
+                parameter[p] = track >= 0 ? now.y + now.re : spline->parameter[p].value;
             }
             inertia->scale[c] = 0;
             if (!swing_hangs(channels, count, channel) || !swing_filter(spline, parameter, &filter)) {
@@ -729,15 +727,12 @@ static bool find_body(void *room, const struct core *core, const struct target *
     return false;
 }
 
-/// A ring on the ground around the held body, or the one under the pointer.
-static void show_ring(const struct stage *stage, struct core *core)
+/// A ring on the ground around a body.
+static void show_ring(const struct stage *stage, struct core *core, int rig)
 {
-    const bool held = body_is_held(core);
-    const int rig = held ? stage->body_drag.rig : core->input.hover.rig;
+    const uint32_t color = body_is_held(core) ? theme()->accent : theme()->playhead;
     struct stand stand;
-    if (!held && core->input.hover.thing != &thing_body) return;
     if (!find_stand(stage, rig, &stand)) return;
-    const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right of the screen over the near half
         float angle = 6.2831853f * (float)i / RING_POINTS - core->view.camera.azimuth;
@@ -756,9 +751,10 @@ void body_show(struct stage *stage, struct core *core)
     const struct record *record = &stage->record;
     const bool is_held = body_is_held(core);
     const int rig = is_held ? stage->body_drag.rig : core->input.hover.rig;
-    const struct tail *shown = is_held || core->input.hover.thing == &thing_body ? tail_of(document, rig) : NULL;
+    const bool is_meant = is_held || core->input.hover.thing == &thing_body;
+    const struct tail *shown = is_meant ? tail_of(document, rig) : NULL;
     bool moves = false;
-    show_ring(stage, core);
+    if (is_meant) show_ring(stage, core, rig);
     for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
     if (moves && !core->view.on[SWITCH_TRAIL])
         path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
