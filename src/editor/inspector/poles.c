@@ -132,26 +132,6 @@ static void draw_number(struct drawlist *list, float x, float y, const char *tex
     drawlist_text(list, x, y, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
 }
 
-/// A filter's response below its peak. Returns that at 0 Hz.
-static float draw_response(const struct filter *filter, struct rect plot, double span, float width, uint32_t color,
-                           struct drawlist *list)
-{
-    float xy[COLUMNS][2], peak = -INFINITY;
-    for (int i = 0; i < COLUMNS; i++) {
-        xy[i][0] = plot.x + plot.w * (float)i / (COLUMNS - 1);
-        xy[i][1] = (float)filter_decibels(filter, span * (2.0 * i / (COLUMNS - 1) - 1));
-        peak = fmaxf(peak, xy[i][1]);
-    }
-    for (int i = 0; i < filter->count; i++) // the peak may be narrower than a column
-        peak = fmaxf(peak, (float)filter_decibels(filter, filter->s[i][1] / (2 * M_PI)));
-    const float zero = xy[COLUMNS / 2][1] - peak;
-    for (int i = 0; i < COLUMNS; i++) xy[i][1] = plot.y + plot.h * fmaxf(xy[i][1] - peak, 2 * FLOOR) / FLOOR;
-    const struct rect old = drawlist_push_clip(list, (struct rect){plot.x, plot.y - 2, plot.w, plot.h + 2});
-    drawlist_line(list, xy[0], COLUMNS, width, color);
-    drawlist_set_clip(list, old);
-    return zero;
-}
-
 void inspector_poles(struct inspector *in)
 {
     static const char *const names[FILTER_KINDS] = {"two-pole real", "four-pole real", "two-pole complex"};
@@ -199,8 +179,21 @@ void inspector_poles(struct inspector *in)
                        text_color = is_own ? theme()->text : theme()->text_dim;
         const float x = top.x + CIRCLE + UI_GAP, y = top.y + 20 + 33 * (float)((int)kind);
         const struct filter filter = filter_of(kind, hz, damping, bandwidth, step);
-        snprintf(text, sizeof text, "%.0f dB at 0 Hz",
-                 (double)draw_response(&filter, plot, span, is_own ? 2 : 1.25f, color, list));
+
+        // Its response below the peak, which may be narrower than a column.
+        float xy[COLUMNS][2], peak = -INFINITY;
+        for (int c = 0; c < COLUMNS; c++) {
+            xy[c][0] = plot.x + plot.w * (float)c / (COLUMNS - 1);
+            xy[c][1] = (float)filter_decibels(&filter, span * (2.0 * c / (COLUMNS - 1) - 1));
+            peak = fmaxf(peak, xy[c][1]);
+        }
+        for (int p = 0; p < filter.count; p++)
+            peak = fmaxf(peak, (float)filter_decibels(&filter, filter.s[p][1] / (2 * M_PI)));
+        snprintf(text, sizeof text, "%.0f dB at 0 Hz", (double)(xy[COLUMNS / 2][1] - peak));
+        for (int c = 0; c < COLUMNS; c++) xy[c][1] = plot.y + plot.h * fmaxf(xy[c][1] - peak, 2 * FLOOR) / FLOOR;
+        const struct rect old = drawlist_push_clip(list, (struct rect){plot.x, plot.y - 2, plot.w, plot.h + 2});
+        drawlist_line(list, xy[0], COLUMNS, is_own ? 2 : 1.25f, color);
+        drawlist_set_clip(list, old);
         drawlist_rounded(list, (struct rect){x, y - 8, 3, 24}, 1.5f, color);
         drawlist_text(list, x + 9, y, is_own ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL, text_color,
                       names[kind]);

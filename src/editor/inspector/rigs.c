@@ -219,18 +219,18 @@ static const struct ui_item tail_axes[] = {
 };
 enum { TAIL_AXES = sizeof tail_axes / sizeof *tail_axes };
 
+/// Of a coordinate of a place.
+#define METRES .unit = "m", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3
+
 enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN, ROW_OFFSET };
 
 static const struct number_row tail_rows[] = {
     [ROW_X] = {NUMBER_AT(struct rig, tail.position[0].value), .undo = "Move body",
-               .ui = {NAMED("position.x", "x"), .unit = "m", .hint = "Position of the body along x", TYPED(-1e6, 1e6),
-                      .step = 0.01, .decimals = 3}},
+               .ui = {NAMED("position.x", "x"), METRES, .hint = "Position of the body along x"}},
     {NUMBER_AT(struct rig, tail.position[1].value), .undo = "Move body",
-     .ui = {NAMED("position.y", "y"), .unit = "m", .hint = "Position of the body along y", TYPED(-1e6, 1e6),
-            .fallback = 0.26, .step = 0.01, .decimals = 3}},
+     .ui = {NAMED("position.y", "y"), METRES, .hint = "Position of the body along y", .fallback = 0.26}},
     {NUMBER_AT(struct rig, tail.position[2].value), .undo = "Move body",
-     .ui = {NAMED("position.z", "z"), .unit = "m", .hint = "Position of the body along z", TYPED(-1e6, 1e6),
-            .step = 0.01, .decimals = 3}},
+     .ui = {NAMED("position.z", "z"), METRES, .hint = "Position of the body along z"}},
     [ROW_JOINTS] = {WHOLE_AT(struct rig, tail.joints), .undo = "Set joints",
                     .ui = {NAMED("joints", "joints"),
                            .hint = "More joints bend more smoothly; shape and swing stay the same", BAR(1, 64),
@@ -441,7 +441,6 @@ void inspector_tail(struct inspector *in)
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
     int count;
     const struct channel *channels = rig_channels(inspector_shown(in), &count);
-    if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
     for (int c = 0; c < count; c++) {
         const struct channel *channel = &channels[c];
         char name[32], text[192];
@@ -801,14 +800,11 @@ static const struct dropdown clip_list = {NAMED("model.clips", "clip"),
 
 static const struct number_row place[] = {
     {NUMBER_AT(struct rig, model.position[0]), .undo = "Place character",
-     .ui = {NAMED("model.x", "x"), .unit = "m", .hint = "Where it stands along x", TYPED(-1e6, 1e6), .step = 0.01,
-            .decimals = 3}},
+     .ui = {NAMED("model.x", "x"), METRES, .hint = "Where it stands along x"}},
     {NUMBER_AT(struct rig, model.position[1]), .undo = "Place character",
-     .ui = {NAMED("model.y", "y"), .unit = "m", .hint = "Height of the ground under it", TYPED(-1e6, 1e6),
-            .step = 0.01, .decimals = 3}},
+     .ui = {NAMED("model.y", "y"), METRES, .hint = "Height of the ground under it"}},
     {NUMBER_AT(struct rig, model.position[2]), .undo = "Place character",
-     .ui = {NAMED("model.z", "z"), .unit = "m", .hint = "Where it stands along z", TYPED(-1e6, 1e6), .step = 0.01,
-            .decimals = 3}},
+     .ui = {NAMED("model.z", "z"), METRES, .hint = "Where it stands along z"}},
     {NUMBER_AT(struct rig, model.scale), .undo = "Place character",
      .ui = {NAMED("model.scale", "scale"), .hint = "Size, relative to the file's", TYPED(1e-9, 1e9), .fallback = 1,
             .step = 0.01, .decimals = 3}},

@@ -250,7 +250,6 @@ static struct rect shorter(struct inspector *in)
 /// Rows keep their places for every kind of spline.
 void inspector_feel(struct inspector *in)
 {
-    static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING};
     static const char *const labels[] = {[ANGLE_LAG] = "lag", [ANGLE_GAIN] = "gain"};
     struct ui *ui = &in->ui;
     const struct rect row = ui_row(ui, UI_ROW);
@@ -259,11 +258,11 @@ void inspector_feel(struct inspector *in)
     build_preset_row(in, row, 0, in_first);
     if (!fit) build_preset_row(in, ui_row(ui, UI_ROW), in_first, PRESETS);
 
-    for (size_t i = 0; i < sizeof pace / sizeof pace[0]; i++) {
-        if (spline_uses(core_active_spline(in->core), pace[i], false)) {
-            inspector_parameter(in, pace[i]);
+    for (enum parameter pace = PARAMETER_FREQUENCY; pace <= PARAMETER_DAMPING; pace++) {
+        if (spline_uses(core_active_spline(in->core), pace, false)) {
+            inspector_parameter(in, pace);
         } else {
-            inspector_idle(in, parameter_rows[pace[i]].name, "–");
+            inspector_idle(in, parameter_rows[pace].name, "–");
         }
     }
     char text[EVALUATION_SENTENCE];
@@ -522,11 +521,9 @@ void inspector_spline(struct inspector *in)
 
 void inspector_advanced(struct inspector *in)
 {
-    static const enum parameter shown[] = {PARAMETER_BANDWIDTH, PARAMETER_CALM, PARAMETER_PASSIVE};
-    const bool calm = spline_uses_calm(in->core->document, in->core->focus.active);
-    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
-        if (shown[i] != PARAMETER_CALM || calm) inspector_parameter(in, shown[i]);
-    }
+    inspector_parameter(in, PARAMETER_BANDWIDTH);
+    if (spline_uses_calm(in->core->document, in->core->focus.active)) inspector_parameter(in, PARAMETER_CALM);
+    inspector_parameter(in, PARAMETER_PASSIVE);
     char text[64];
     if (isnan(get_felt(in, SETTLE, false, text))) {
         inspector_idle(in, "settles in", "–");

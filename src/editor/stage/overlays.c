@@ -72,11 +72,15 @@ static void place_node(const struct silhouette *silhouette, int row, int column,
     xy[1] = silhouette->area.y + silhouette->cell * (float)row;
 }
 
+/// A disc of a tail, on the screen.
+struct disc {
+    float middle[2], radius;
+};
+
 /// Adds two discs and the area between them.
-static void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius,
-                                const float to[2], float to_radius)
+static void silhouette_add_link(struct silhouette *silhouette, const struct disc *a, const struct disc *b)
 {
-    const float reach = fmaxf(from_radius, to_radius) - OUTSIDE * silhouette->cell;
+    const float *from = a->middle, *to = b->middle, reach = fmaxf(a->radius, b->radius) - OUTSIDE * silhouette->cell;
     const float low[2] = {fminf(from[0], to[0]) - reach, fminf(from[1], to[1]) - reach};
     const float high[2] = {fmaxf(from[0], to[0]) + reach, fmaxf(from[1], to[1]) + reach};
     const float dx = to[0] - from[0], dy = to[1] - from[1];
@@ -90,7 +94,7 @@ static void silhouette_add_link(struct silhouette *silhouette, const float from[
             float *inside = &silhouette->inside[row][column];
             for (int k = 0; k < 3; k++) { // no hypotf() or fmaxf(): a view from near has many nodes
                 const float x = p[0] - from[0] - shares[k] * dx, y = p[1] - from[1] - shares[k] * dy;
-                const float depth = from_radius + shares[k] * (to_radius - from_radius) - sqrtf(x * x + y * y);
+                const float depth = a->radius + shares[k] * (b->radius - a->radius) - sqrtf(x * x + y * y);
                 if (depth > *inside) *inside = depth;
             }
         }
@@ -236,11 +240,6 @@ static const double FROM = 0.16,
                     TO = 0.985; ///< shares of the length: outside the body, and up to the rounded tip
 static const float OPEN = 1.5f; ///< cells from the root's disc; closer parts of a tail's outline are not drawn
 
-/// A disc of a tail, on the screen.
-struct disc {
-    float middle[2], radius;
-};
-
 /// Outlines a tail, but for the outline's longest part at the root, where it joins the body.
 static bool show_tail(struct stage *stage, struct core *core, const struct pose *pose, float width, uint32_t color,
                       float tip[2])
@@ -259,8 +258,7 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
         silhouette_widen(silhouette, discs[i].middle, discs[i].radius);
     }
     if (!silhouette_open(silhouette, core->view.layout.stage)) return false;
-    for (int i = 1; i < STATIONS; i++)
-        silhouette_add_link(silhouette, discs[i - 1].middle, discs[i - 1].radius, discs[i].middle, discs[i].radius);
+    for (int i = 1; i < STATIONS; i++) silhouette_add_link(silhouette, &discs[i - 1], &discs[i]);
     const int count = silhouette_follow(silhouette), whole = count - 1; // the last point repeats the first
     if (count > 0) {
         float(*points)[2] = silhouette->points;

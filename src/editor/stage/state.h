@@ -32,7 +32,7 @@ struct tail_drag_axis {
     double values_per_radian; ///< of bend at the grabbed joint
 };
 
-enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048 };
+enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048, RECORD_SAMPLES = 8192, TRAIL_FRAMES = 256, POINT_BASE = -1 };
 
 /// A tail or chain as last posed, from its first joint to its tip.
 struct shown_strand {
@@ -51,44 +51,11 @@ struct shown_bone {
     float ends[2][3]; ///< world
 };
 
-/// The tail or chain held by the pointer.
-struct tail_drag {
-    int rig, joint;
-    double fraction;               ///< of the segment after `joint`
-    int sample;                    ///< sample of the knots
-    float start[2];                ///< of the grabbed point, pixels
-    struct tail_drag_axis axis[2]; ///< by enum axis
-    bool applied;                  ///< the open step contains edits
-    char hint[128];                ///< which knot it takes along; "": none
-};
-
-/// The held body, and how pointer movement maps to the ground or upwards.
-struct body_drag {
-    int rig;                        ///< tail or character
-    bool begun;                     ///< the pointer has moved
-    bool lifts;                     ///< moving up the screen lifts the body, instead of moving it away
-    int axis;                       ///< locked axis; −1: none
-    double rise;                    ///< metres up the screen per metre upwards
-    double lowest;                  ///< least movement upwards, where it sits on the ground
-    double pixels_per_metre;        ///< at the body
-    double pitch;                   ///< metres up the screen per metre away from the eye
-    double right[2];                ///< x and z of the screen's right
-    double offset[3];               ///< shown offset from the document, metres
-    bool hangs[SCENE_MAX_CHANNELS]; ///< channels that swing with it
-    bool loops;                     ///< all of its splines loop
-};
-
-enum { RECORD_SAMPLES = 8192 };
-
 /// A moving point of a rig: the end of a tail's or chain's joint, or a character's vertex.
 struct rig_point {
     int rig; ///< index in the document
     int at;  ///< joint or vertex; POINT_BASE: a tail's root
 };
-
-enum { POINT_BASE = -1 };
-
-enum { TRAIL_FRAMES = 256 };
 
 /// The arcs that can be shown together.
 enum trail { TRAIL_OF_TIP, TRAIL_OF_PIN, TRAIL_OF_BODY, TRAILS };
@@ -121,8 +88,29 @@ struct stage {
     struct shown_bone bones[STAGE_MAX_BONES];
     int bone_count;
     struct hover pressed; ///< where the current drag began
-    struct tail_drag tail_drag;
-    struct body_drag body_drag;
+    struct tail_drag {
+        int rig, joint;
+        double fraction;               ///< of the segment after `joint`
+        int sample;                    ///< sample of the knots
+        float start[2];                ///< of the grabbed point, pixels
+        struct tail_drag_axis axis[2]; ///< by enum axis
+        bool applied;                  ///< the open step contains edits
+        char hint[128];                ///< which knot it takes along; "": none
+    } tail_drag;                       ///< the tail or chain held by the pointer
+    struct body_drag {
+        int rig;                        ///< tail or character
+        bool begun;                     ///< the pointer has moved
+        bool lifts;                     ///< moving up the screen lifts the body, instead of moving it away
+        int axis;                       ///< locked axis; −1: none
+        double rise;                    ///< metres up the screen per metre upwards
+        double lowest;                  ///< least movement upwards, where it sits on the ground
+        double pixels_per_metre;        ///< at the body
+        double pitch;                   ///< metres up the screen per metre away from the eye
+        double right[2];                ///< x and z of the screen's right
+        double offset[3];               ///< shown offset from the document, metres
+        bool hangs[SCENE_MAX_CHANNELS]; ///< channels that swing with it
+        bool loops;                     ///< all of its splines loop
+    } body_drag;                        ///< the held body, and how pointer movement maps to the ground or upwards
     struct record {
         bool running;                  ///< until the end of the played range
         int first, count;              ///< samples
