@@ -11,18 +11,17 @@ enum { SWITCH = 24, MOST_REACH = 1024 }; ///< pixels: width of a form button
 
 static const struct number_row rows[] = {
     [ANGLE_REST] = {.undo = "Set rest pose",
-                    .ui = {NAMED("rest", "rest"), BAR(-15, 15), .unit = "°",
-                           .hint = "Upward bend of each joint at rest", TYPED(-36000, 36000), .step = 0.5,
-                           .decimals = 1}},
+                    .ui = {NAMED("rest", "rest"), BAR(-15, 15), DEGREES, .hint = "Upward bend of each joint at rest",
+                           .step = 0.5, .decimals = 1}},
     [ANGLE_LAG] = {.undo = "Set lag",
-                   .ui = {NAMED("lag", "lag"), BAR(0, 30), .unit = "°",
+                   .ui = {NAMED("lag", "lag"), BAR(0, 30), DEGREES,
                           .hint =
                               "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)",
-                          TYPED(-36000, 36000), .fallback = 6.5, .step = 0.5, .decimals = 1}},
+                          .fallback = 6.5, .step = 0.5, .decimals = 1}},
     [ANGLE_GAIN] = {.undo = "Set gain",
-                    .ui = {NAMED("gain", "gain"), BAR(0, 20), .unit = "°",
-                           .hint = "How far each joint bends when the spline is 1", TYPED(-36000, 36000),
-                           .fallback = 5, .step = 0.5, .decimals = 1}},
+                    .ui = {NAMED("gain", "gain"), BAR(0, 20), DEGREES,
+                           .hint = "How far each joint bends when the spline is 1", .fallback = 5, .step = 0.5,
+                           .decimals = 1}},
 };
 
 static bool set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles, struct error *error)

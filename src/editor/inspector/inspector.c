@@ -410,23 +410,20 @@ static void build_history(struct inspector *in)
 
 enum { FIELD_FRAME, FIELD_VALUE, FIELD_PHASE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
 
+static const char of_several[] = "Type to set all selected knots; drag to shift each by the same amount";
+
 static const struct number_row knot_rows[FIELDS] = {
     [FIELD_FRAME] = {NUMBER_AT(struct knot, frame), .undo = "Move knots",
                      .ui = {NAMED("frame", "frame"),
                             .hint = "Frame of the first selected knot; the others move with it",
                             TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1}},
     [FIELD_VALUE] = {NUMBER_AT(struct knot, value), .undo = "Set values",
-                     .ui = {NAMED("value", "value"),
-                            .hint = "Type to set all selected knots; drag to shift each by the same amount",
-                            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3}},
+                     .ui = {NAMED("value", "value"), .hint = of_several, ANY_NUMBER, .step = 0.01, .decimals = 3}},
     [FIELD_PHASE] = {NUMBER_AT(struct knot, phase), .undo = "Set phases",
-                     .ui = {NAMED("phase", "phase"),
-                            .hint = "Type to set all selected knots; drag to shift each by the same amount",
-                            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3}},
+                     .ui = {NAMED("phase", "phase"), .hint = of_several, ANY_NUMBER, .step = 0.01, .decimals = 3}},
     [FIELD_SLOPE] = {NUMBER_AT(struct knot, slope), .undo = "Set slopes",
-                     .ui = {NAMED("slope", "slope"), .unit = "/s",
-                            .hint = "Type to set all selected knots; drag to shift each by the same amount",
-                            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.05, .decimals = 2}},
+                     .ui = {NAMED("slope", "slope"), .unit = "/s", .hint = of_several, ANY_NUMBER, .step = 0.05,
+                            .decimals = 2}},
     [FIELD_STIFFNESS] = {NUMBER_AT(struct knot, stiffness), .undo = "Set stiffness",
                          .ui = {NAMED("stiffness", "stiffness"), .unit = "1/s",
                                 .hint = "How firmly the slopes hold; 1000 is firm", TYPED(0.001, INSPECTOR_NO_LIMIT),
@@ -656,14 +653,14 @@ static const struct number_row pin_rows[PIN_ROWS] = {
     {WHOLE_AT(struct pin, point), .undo = "Pin another point",
      .ui = {.name = "pin.point", .hint = "The pinned point", .fallback = NAN, .step = 1}},
     {NUMBER_AT(struct pin, to[0]), .undo = "Move pin",
-     .ui = {NAMED("pin.x", "x"), .unit = "m", .hint = "Target of the point: across; 0 is the middle",
-            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3}},
+     .ui = {NAMED("pin.x", "x"), .unit = "m", .hint = "Target of the point: across; 0 is the middle", ANY_NUMBER,
+            .fallback = NAN, .step = 0.005, .decimals = 3}},
     {NUMBER_AT(struct pin, to[1]), .undo = "Move pin",
-     .ui = {NAMED("pin.y", "y"), .unit = "m", .hint = "Target of the point: height",
-            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3}},
+     .ui = {NAMED("pin.y", "y"), .unit = "m", .hint = "Target of the point: height", ANY_NUMBER, .fallback = NAN,
+            .step = 0.005, .decimals = 3}},
     {NUMBER_AT(struct pin, to[2]), .undo = "Move pin",
-     .ui = {NAMED("pin.z", "z"), .unit = "m", .hint = "Target of the point: depth",
-            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3}},
+     .ui = {NAMED("pin.z", "z"), .unit = "m", .hint = "Target of the point: depth", ANY_NUMBER, .fallback = NAN,
+            .step = 0.005, .decimals = 3}},
 };
 
 static bool set_pin(struct inspector *in, int which, double number, struct error *error)

@@ -219,9 +219,6 @@ static const struct ui_item tail_axes[] = {
 };
 enum { TAIL_AXES = sizeof tail_axes / sizeof *tail_axes };
 
-/// Of a coordinate of a place.
-#define METRES .unit = "m", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3
-
 enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN, ROW_OFFSET };
 
 static const struct number_row tail_rows[] = {
@@ -240,9 +237,9 @@ static const struct number_row tail_rows[] = {
                            .hint = "Length of the tail; the body scales with it", BAR(0.2, 4), TYPED(1e-3, 1e6),
                            .fallback = TAIL_DEFAULT_LENGTH, .step = 0.05, .decimals = 2}},
     [ROW_TURN] = {NUMBER_AT(struct rig, chain.turn), .undo = "Turn chain's axes",
-                  .ui = {NAMED("chain.turn", "turn"), .unit = "°",
+                  .ui = {NAMED("chain.turn", "turn"), DEGREES,
                          .hint = "Turns the axes of side and up about the chain's own direction", BAR(-180, 180),
-                         TYPED(-36000, 36000), .step = 1}},
+                         .step = 1}},
     [ROW_OFFSET] = {NUMBER_AT(struct rig, offset), .undo = "Set offset",
                     .ui = {NAMED("offset", "offset"), .unit = "f",
                            .hint = "Frames by which its splines move it later, so that twins are not in step",
@@ -533,12 +530,11 @@ static const struct drive *felt_drive(const struct inspector *in)
 
 static const struct number_row drive_rows[] = {
     {NUMBER_AT(struct drive, lag), .undo = "Set lag",
-     .ui = {NAMED("drive.lag", "lag"), .unit = "°", .hint = "How far it lags behind the spline; 360 is a full swing",
-            BAR(-180, 180), TYPED(-36000, 36000), .step = 1, .decimals = 1}},
+     .ui = {NAMED("drive.lag", "lag"), DEGREES, .hint = "How far it lags behind the spline; 360 is a full swing",
+            BAR(-180, 180), .step = 1, .decimals = 1}},
     {NUMBER_AT(struct drive, amplitude), .undo = "Set amplitude",
-     .ui = {NAMED("amplitude", "amplitude"), .hint = "How far it swings when the spline is 1", BAR(-2, 2),
-            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = DRIVE_DEFAULT_AMPLITUDE, .step = 0.05,
-            .decimals = 2}},
+     .ui = {NAMED("amplitude", "amplitude"), .hint = "How far it swings when the spline is 1", BAR(-2, 2), ANY_NUMBER,
+            .fallback = DRIVE_DEFAULT_AMPLITUDE, .step = 0.05, .decimals = 2}},
 };
 
 static double get_drive(const struct inspector *in, int which, bool kept, char text[64])
@@ -636,7 +632,7 @@ static const struct dropdown add_list = {.name = "drive.add",
 static const struct number_row floor_rows[] = {
     {NUMBER_AT(struct rig, model.floor), .undo = "Set floor",
      .ui = {NAMED("floor.height", "height"), .unit = "m", .hint = "No point of the character goes lower", BAR(-1, 0),
-            TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3}},
+            ANY_NUMBER, .step = 0.01, .decimals = 3}},
 };
 
 static const struct number_row brush_rows[] = {
@@ -809,8 +805,7 @@ static const struct number_row place[] = {
      .ui = {NAMED("model.scale", "scale"), .hint = "Size, relative to the file's", TYPED(1e-9, 1e9), .fallback = 1,
             .step = 0.01, .decimals = 3}},
     {NUMBER_AT(struct rig, model.turn), .undo = "Place character",
-     .ui = {NAMED("model.turn", "turn"), .unit = "°", .hint = "About the vertical", BAR(-180, 180),
-            TYPED(-36000, 36000), .step = 1}},
+     .ui = {NAMED("model.turn", "turn"), DEGREES, .hint = "About the vertical", BAR(-180, 180), .step = 1}},
 };
 
 void inspector_character(struct inspector *in)

@@ -156,9 +156,12 @@ struct number_row {
 /// Where a row's double is, or its int.
 #define NUMBER_AT(type, member) .at = offsetof(type, member)
 #define WHOLE_AT(type, member) .at = offsetof(type, member), .is_whole = true
-/// The ends of a bar, and of typed numbers. A row leaves out zeros.
+/// The ends of a bar, and of typed numbers: any, angles, places. A row leaves out zeros.
 #define BAR(from, to) .minimum = (from), .maximum = (to)
 #define TYPED(from, to) .lowest = (from), .highest = (to)
+#define ANY_NUMBER TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT)
+#define DEGREES .unit = "°", TYPED(-36000, 36000)
+#define METRES .unit = "m", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3
 
 /// Reads a row's number from its struct, and writes it.
 double number_at(const struct number_row *row, const void *of);
