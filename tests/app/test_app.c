@@ -74,7 +74,7 @@ static bool covers_a_character(const struct editor *editor, struct rect card)
         struct target target = {.number = {i % STEPS / (double)STEPS, i / STEPS / (double)STEPS}};
         for (target.rig = 0; target.rig < editor->core.document->rig_count; target.rig++) {
             float xy[2];
-            if (find_character(editor->stage, &editor->core, &target, xy) && rect_contains(card, xy[0], xy[1]))
+            if (thing_point.find(editor->stage, &editor->core, &target, xy) && rect_contains(card, xy[0], xy[1]))
                 return true;
         }
     }

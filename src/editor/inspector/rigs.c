@@ -305,9 +305,8 @@ static const struct channel *chosen_channel(const struct inspector *in)
 /// Selects a channel and its spline.
 static void choose_channel(struct inspector *in, int channel)
 {
-    in->channel = channel;
-    core_choose(in->core, chosen_channel(in)->spline);
     in->channel = channel; // two channels may share a spline
+    core_choose(in->core, chosen_channel(in)->spline);
 }
 
 enum { CHANNEL_AXIS, CHANNEL_SPLINE, CHANNEL_PART };
@@ -473,8 +472,8 @@ void inspector_tail(struct inspector *in)
         for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
     } else {
         const struct chain *chain = &inspector_shown(in)->chain;
-        inspector_bone_field(in, &from_list, ui_row(ui, UI_ROW), chain->from, in->rig);
-        inspector_bone_field(in, &to_list, ui_row(ui, UI_ROW), chain->to, in->rig);
+        inspector_bone_field(in, &from_list, ui_row(ui, UI_ROW), in->rig, chain->from, in->rig);
+        inspector_bone_field(in, &to_list, ui_row(ui, UI_ROW), in->rig, chain->to, in->rig);
         inspector_numbers(in, &tail_rows[ROW_TURN], 1, &home);
 
         struct rig changed = *inspector_shown(in);

@@ -314,14 +314,15 @@ static const struct param *followed(const struct inspector *in)
     return &core_active_spline(in->core)->parameter[PARAMETER_EQUILIBRIUM];
 }
 
-void inspector_bone_field(struct inspector *in, const struct dropdown *list, struct rect r, const char *text, int of)
+void inspector_bone_field(struct inspector *in, const struct dropdown *list, struct rect r, int which,
+                          const char *text, int of)
 {
     struct bone_pick *pick = &in->core->focus.pick;
     const struct row button = {ICON(list->pick, UI_ICON_PICK), .hint = "Pick it on the stage",
                                .lit = pick->use == list->use && pick->which == of};
     const struct rect icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     r.w -= INSPECTOR_ICON + 4;
-    inspector_dropdown(in, list, r, 0, text, 0);
+    inspector_dropdown(in, list, r, which, text, 0);
     if (inspector_icon(in, icon, &button)) *pick = (struct bone_pick){button.lit ? BONE_SELECTED : list->use, of};
 }
 
@@ -480,7 +481,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
         const int model = document_find_model(in->core->document, motion->model, motion->by_file);
         char title[BONES_TITLE];
         const char *text = model < 0 ? motion->joint : bones_title(in->core->document, model, motion->joint, title);
-        inspector_bone_field(in, &joint_list, field, text, in->core->focus.active);
+        inspector_bone_field(in, &joint_list, field, 0, text, in->core->focus.active);
     } else {
         inspector_spline_field(in, &track_list, field, (int)parameter, param->track);
     }

@@ -124,7 +124,8 @@ int inspector_list(struct inspector *in, const struct dropdown *list, const stru
 extern const struct dropdown inspector_add_list;
 
 /// The field of a list of bones, and the button that picks one on the stage for `of`, a spline or a chain.
-void inspector_bone_field(struct inspector *in, const struct dropdown *list, struct rect r, const char *text, int of);
+void inspector_bone_field(struct inspector *in, const struct dropdown *list, struct rect r, int which,
+                          const char *text, int of);
 /// The open list of a model's bones below `top` (−1: all), by name; the picked node, or −1.
 int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen);
 

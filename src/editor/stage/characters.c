@@ -12,32 +12,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const float FRONT_SHARE = 0.1f; ///< weight of depth, to prefer front vertices
-
-/// The vertex seen at a share of the width and height from the front, at rest.
-bool find_character(void *room, const struct core *core, const struct target *target, float xy[2])
-{
-    const struct stage *stage = room;
-    const struct stage_model *shown = stage_soft_shown(stage, target->rig);
-    (void)core;
-    if (!shown) return false;
-    const struct figure *figure = shown->posed.figure;
-    const float *lo = figure->lo, *hi = figure->hi;
-    const float x = lo[0] + (float)target->number[0] * (hi[0] - lo[0]);
-    const float y = lo[1] + (float)target->number[1] * (hi[1] - lo[1]);
-    float best = INFINITY, point[3];
-    int found = 0;
-    for (int i = 0; i < figure->character.vertex_count; i++) {
-        const float *p = figure->character.position[i];
-        const float cost = maths_hypotf(p[0] - x, p[1] - y) - FRONT_SHARE * p[2];
-        if (!(cost < best)) continue;
-        best = cost;
-        found = i;
-    }
-    figure_vertex(&shown->posed, found, point);
-    return stage_project_point(stage, point, xy);
-}
-
 enum { SECTORS = 36, RINGS = 5, LEGEND_WIDTH = 196, LEGEND_HEIGHT = 132 };
 
 static const float WHEEL = 30; ///< radius

@@ -1,7 +1,8 @@
-/// Characters on the stage: posing, the posed surface of a soft one for hover, and their bones: hover, clicks and drawing.
+/// Characters on the stage: posing, the posed surface of a soft one for hover, and their bones: hover, drawing, and what the camera frames.
 #include "base/hash.h"
 #include "base/names.h"
 #include "editor/core/core.h"
+#include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"
 #include "model/figure.h"
@@ -368,10 +369,14 @@ void bones_show(const struct stage *stage, struct core *core)
                       theme()->text, text);
 }
 
-bool bones_box(const struct stage *stage, const struct core *core, float lo[3], float hi[3])
+static const float AROUND = 0.15f; ///< of its largest side: room about what is framed
+
+void stage_frame(struct stage *stage, struct core *core)
 {
+    float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
+    const int rig = overlay_rig(stage, core);
+    const struct pose *strand = rig >= 0 ? &strand_of(stage, rig)->pose : NULL;
     const struct way way = way_chosen(core);
-    bool any = false;
     for (int b = 0; b < stage->bone_count; b++) {
         const struct shown_bone *bone = &stage->bones[b];
         const int node = bone->part.node;
@@ -381,7 +386,23 @@ bool bones_box(const struct stage *stage, const struct core *core, float lo[3], 
             lo[e % 3] = fminf(lo[e % 3], bone->ends[e / 3][e % 3]);
             hi[e % 3] = fmaxf(hi[e % 3], bone->ends[e / 3][e % 3]);
         }
-        any = true;
     }
-    return any;
+    const int points = strand && !(lo[0] <= hi[0]) ? strand->count : 0; // without bones
+    for (int i = 0; i < 3 * points; i++) {
+        const float at = strand->matrix[i / 3][12 + i % 3];
+        lo[i % 3] = fminf(lo[i % 3], at);
+        hi[i % 3] = fmaxf(hi[i % 3], at);
+    }
+    if (!(lo[0] <= hi[0])) {
+        stage_fit(stage, core);
+        return;
+    }
+    for (int k = 0; k < 3; k++) widest = fmaxf(widest, hi[k] - lo[k]);
+    for (int k = 0; k < 3; k++) {
+        lo[k] -= AROUND * widest;
+        hi[k] += AROUND * widest;
+    }
+    const float floor = core->view.camera.floor;
+    camera_fit(&core->view.camera, lo, hi, core->view.layout.stage.w / core->view.layout.stage.h, 0);
+    core->view.camera.floor = floor;
 }

@@ -378,34 +378,6 @@ void stage_fit(struct stage *stage, struct core *core)
     stage_project_box(stage, unit, lo, hi, &stage->figure);
 }
 
-static const float AROUND = 0.15f; ///< of its largest side: room about what is framed
-
-void stage_frame(struct stage *stage, struct core *core)
-{
-    float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
-    const int rig = overlay_rig(stage, core);
-    const struct pose *strand = rig >= 0 ? &strand_of(stage, rig)->pose : NULL;
-    if (!bones_box(stage, core, lo, hi)) {
-        for (int i = 0; strand && i < 3 * strand->count; i++) {
-            const float at = strand->matrix[i / 3][12 + i % 3];
-            lo[i % 3] = fminf(lo[i % 3], at);
-            hi[i % 3] = fmaxf(hi[i % 3], at);
-        }
-    }
-    if (!(lo[0] <= hi[0])) {
-        stage_fit(stage, core);
-        return;
-    }
-    for (int k = 0; k < 3; k++) widest = fmaxf(widest, hi[k] - lo[k]);
-    for (int k = 0; k < 3; k++) {
-        lo[k] -= AROUND * widest;
-        hi[k] += AROUND * widest;
-    }
-    const float floor = core->view.camera.floor;
-    camera_fit(&core->view.camera, lo, hi, core->view.layout.stage.w / core->view.layout.stage.h, 0);
-    core->view.camera.floor = floor;
-}
-
 void stage_pose(struct stage *stage, struct core *core, bool covered)
 {
     if (core->view.refit_stage) stage_fit(stage, core);

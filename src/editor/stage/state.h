@@ -225,8 +225,6 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
 
 /// Draws bones: all of the character under the pointer, and those from the selected bone to its tip.
 void bones_show(const struct stage *stage, struct core *core);
-/// Widens the box to the selected bone and those to its tip; false if none is shown.
-bool bones_box(const struct stage *stage, const struct core *core, float lo[3], float hi[3]);
 
 /// The floor's edge at a point of the stage.
 struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y);
@@ -236,9 +234,6 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
 
 /// Draws markers, highlights, and the path of the held or selected point.
 void pins_show(struct stage *stage, struct core *core);
-
-/// Finds a point of a character's surface for a replay.
-bool find_character(void *room, const struct core *core, const struct target *target, float xy[2]);
 
 /// Frees its memory.
 void brush_free(struct painting *painting);
@@ -276,7 +271,7 @@ struct rig_point overlay_point(struct stage *stage, const struct core *core);
 /// Onion skin, ghost and motion arc, whichever are on: one function each, which the last function of overlays.c calls.
 void overlays_show(struct stage *stage, struct core *core);
 
-/// The same for any point of a rig.
+/// The arc of a point of a rig.
 void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point);
 
 /// Height of the scene's description at the top of a stage, pixels; 0 without one.
