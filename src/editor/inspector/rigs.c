@@ -261,10 +261,8 @@ static void choose_place(struct inspector *in, const struct dropdown *list)
     if (picked >= 0) follow(in, k, param_track(picked));
 }
 
-static const struct dropdown place_list = {.name = "place",
-                                           .hint = "The spline it follows, sample by sample",
-                                           .undo = "Follow spline",
-                                           .build = choose_place};
+static const struct dropdown place_list = {NAMED("place", NULL), .hint = "The spline it follows, sample by sample",
+                                           .undo = "Follow spline", .build = choose_place};
 
 /// A coordinate: a number or the followed spline, and the button between the two.
 static void build_coordinate(struct inspector *in, const struct tail *tail, int k)
@@ -623,9 +621,8 @@ static void add_coordinate(struct inspector *in, const struct dropdown *list)
     free(name);
 }
 
-static const struct dropdown add_list = {.name = "drive.add",
-                                         .hint = "Add a channel that the active spline drives",
-                                         .undo = "Add channel",
+static const struct dropdown add_list = {NAMED("drive.add", NULL),
+                                         .hint = "Add a channel that the active spline drives", .undo = "Add channel",
                                          .build = add_coordinate};
 
 static const struct number_row floor_rows[] = {

@@ -180,23 +180,19 @@ static bool set_felt(struct inspector *in, int which, double number, struct erro
 static void build_number(struct inspector *in, int which, struct rect r)
 {
     static const struct number_home home = {.get = get_felt, .set = set_felt};
-    static const struct parameter_row settle = {
-        .name = "settle",
-        .unit = "s",
-        .hint = "Time until 5 % of a swing is left; changes the damping, not the frequency",
+    static const struct number_row settle = {
         .undo = "Set settle time",
-        .fresh = NAN,
-        .step = 0.05,
-        .decimals = 2};
+        .ui = {NAMED("settle", "settles in"), .unit = "s",
+               .hint = "Time until 5 % of a swing is left; changes the damping, not the frequency",
+               .highest = SETTLE_LIMIT, .fallback = NAN, .step = 0.05, .decimals = 2}};
     const struct spline *spline = core_active_spline(in->core);
-    const struct parameter_row *row = which == SETTLE ? &settle : &parameter_rows[which];
+    const struct parameter_row *row = &parameter_rows[which == SETTLE ? PARAMETER_DAMPING : which];
     struct number_row number = {.undo = row->undo,
                                 .ui = {NAMED(row->name, row->name), .unit = row->unit, .hint = row->hint,
                                        .fallback = row->fresh, .step = row->step, .decimals = row->decimals}};
     if (which == SETTLE) {
-        number.ui.label = "settles in";
+        number = settle;
         number.ui.lowest = ceil(settles(spline, 1, document_step(in->core->document)) * 100) / 100;
-        number.ui.highest = SETTLE_LIMIT;
     } else if (which == PARAMETER_WIND_UP) {
         number.ui.maximum = longest_wind_up(in);
         number.ui.lowest = 1;
@@ -348,11 +344,8 @@ static void choose_joint(struct inspector *in, const struct dropdown *list)
     if (node >= 0) bones_follow(in->core, in->core->focus.active, model, node);
 }
 
-static const struct dropdown joint_list = {.name = "joint",
-                                           .hint = "The joint it follows through the clip",
-                                           .pick = "joint.pick",
-                                           .use = BONE_FOLLOWED,
-                                           .build = choose_joint};
+static const struct dropdown joint_list = {NAMED("joint", NULL), .hint = "The joint it follows through the clip",
+                                           .pick = "joint.pick", .use = BONE_FOLLOWED, .build = choose_joint};
 
 /// Marks splines the active one cannot follow without a cycle; true if any is left.
 static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX_SPLINES])
@@ -457,12 +450,8 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
         struct ui_choice choices[PARAMETER_MAX_WORDS];
         int chosen = (int)spline->parameter[parameter].value, count = 0;
         for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
-        const struct row choice = {.name = row->name,
-                                   .label = parameter == PARAMETER_MODE ? NULL : row->name,
-                                   .hint = row->hint,
-                                   .undo = row->undo,
-                                   .choices = choices,
-                                   .count = count};
+        const struct row choice = {NAMED(row->name, parameter == PARAMETER_MODE ? NULL : row->name),
+                                   .hint = row->hint, .undo = row->undo, .choices = choices, .count = count};
         if (inspector_choice(in, &choice, &chosen)) set_felt(in, (int)parameter, chosen, &in->core->step.error);
         return;
     }

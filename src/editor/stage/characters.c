@@ -51,13 +51,11 @@ static void show_legend(struct core *core)
         const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
         for (int s = 0; s < SECTORS; s++) {
             const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
-            const float xy[] = {x,
-                                y,
-                                x + radius * maths_cosf(from),
-                                y - radius * maths_sinf(from),
-                                x + radius * maths_cosf(to),
-                                y - radius * maths_sinf(to)};
-            drawlist_convex(list, xy, 3, phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
+            const float xy[3][2] = {{x, y},
+                                    {x + radius * maths_cosf(from), y - radius * maths_sinf(from)},
+                                    {x + radius * maths_cosf(to), y - radius * maths_sinf(to)}};
+            drawlist_convex(list, xy[0], 3,
+                            phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
         }
     }
     for (int i = 0; i < 8; i++) { // the same lines as on the character (stage_mesh.frag)
@@ -111,11 +109,10 @@ static const struct model_rig *floors_find(const struct stage *stage, const stru
     return rig;
 }
 
-struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y)
+struct hover floors_hover(const struct stage *stage, float x, float y)
 {
     struct hover hover = {.thing = NULL};
     float best = EDGE_REACH;
-    if (core->focus.brush.on || core->focus.pick.use != BONE_SELECTED) return hover;
     for (int m = 0; m < stage->view.model_count; m++) {
         const struct stage_model *shown = &stage->view.models[m];
         struct shown_floor floor = {0};
@@ -126,8 +123,7 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
             const float distance = maths_hypotf(a[0] + along * (b[0] - a[0]) - x, a[1] + along * (b[1] - a[1]) - y);
             if (distance >= best) continue;
             best = distance;
-            hover = (struct hover){.thing = &thing_floor, .x = x, .y = y};
-            hover.rig = shown->rig;
+            hover = (struct hover){.thing = &thing_floor, .rig = shown->rig, .x = x, .y = y};
         }
     }
     return hover;

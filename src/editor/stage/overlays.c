@@ -591,7 +591,6 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
     struct hover hover = {.thing = NULL};
     const float reach = core_reach(core, MARKER_REACH);
     float best = reach;
-    if (core->focus.brush.on || core->focus.pick.use != BONE_SELECTED) return hover;
 
     // The marker under the point: the selected one, else the nearest.
     struct pin_place place = PINS_START;

@@ -116,12 +116,12 @@ struct hover stage_hover(struct stage *stage, const struct core *core, float x, 
     if (!tail_drag_holds(core->document, found.rig, found.joint)) found.thing = NULL;
     if (bone.thing && (!found.thing || maths_hypotf(bone.x - x, bone.y - y) < maths_hypotf(found.x - x, found.y - y)))
         found = bone;
-    const bool pins = core->input.mods & MOD_CTRL && !core->focus.brush.on && core->focus.pick.use == BONE_SELECTED;
-    if (pins && is_strand(&found)) found = strand_end(stage, &found);
-    if (!found.thing) found = floors_hover(stage, core, x, y);
+    const bool holds = !core->focus.brush.on && core->focus.pick.use == BONE_SELECTED;
+    if (holds && core->input.mods & MOD_CTRL && is_strand(&found)) found = strand_end(stage, &found);
+    if (holds && !found.thing) found = floors_hover(stage, x, y);
     if (!found.thing) found = body_hover(stage, core->view.playback.position, x, y);
-    const struct hover pin = pins_hover(stage, core, &found, x, y);
-    return !pin.thing ? found : pin;
+    const struct hover pin = holds ? pins_hover(stage, core, &found, x, y) : found;
+    return pin.thing ? pin : found;
 }
 
 static bool is_on_rig(const struct hover *hover)

@@ -227,7 +227,7 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
 void bones_show(const struct stage *stage, struct core *core);
 
 /// The floor's edge at a point of the stage.
-struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y);
+struct hover floors_hover(const struct stage *stage, float x, float y);
 
 /// A marker at a point of the stage; else, if nothing else was `found`, a surface point to pin.
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y);
