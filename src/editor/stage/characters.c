@@ -132,14 +132,14 @@ struct hover floors_hover(const struct stage *stage, float x, float y)
 /// Moves the floor to the pointer.
 static void move_floor(void *room, struct core *core)
 {
-    const struct floor_drag *drag = &((const struct stage *)room)->floor_drag;
+    const double scale = ((const struct stage *)room)->floor_scale;
     const struct document *document = core->document;
-    if (drag->rig >= document->rig_count || !rig_has_floor(document->rigs[drag->rig])) return; // an edit removed it
-    struct rig changed = *document->rigs[drag->rig];
-    const double height = drag->start - core->input.drag.moved_y / drag->pixels_per_metre;
-    const double rounded = core_round(height, 0.5 / drag->pixels_per_metre);
-    changed.model.floor = fmin(rounded, changed.model.position[1]);
-    edit_rig_set(core->document, drag->rig, &changed, &core->step.error);
+    const int rig = core->input.hover.rig;
+    if (rig >= document->rig_count || !rig_has_floor(document->rigs[rig])) return; // an edit removed it
+    struct rig changed = *document->rigs[rig];                                     // as at the start
+    const double height = core_round(changed.model.floor - core->input.drag.moved_y / scale, 0.5 / scale);
+    changed.model.floor = fmin(height, changed.model.position[1]);
+    edit_rig_set(core->document, rig, &changed, &core->step.error);
 }
 
 static void press_floor(void *room, struct core *core, const struct hover *hover, const struct event *event)
@@ -151,8 +151,7 @@ static void press_floor(void *room, struct core *core, const struct hover *hover
     const double rise = fmax(maths_cos((double)core->view.camera.elevation), LEAST_RISE);
     core->input.hover = *hover;
     drag_begin(core, &owner, stage, "Set floor", event);
-    stage->floor_drag = (struct floor_drag){
-        .rig = hover->rig, .start = rig->floor, .pixels_per_metre = rise * stage_pixels_per_metre(stage, at)};
+    stage->floor_scale = rise * stage_pixels_per_metre(stage, at);
 }
 
 /// The middle of a near edge.

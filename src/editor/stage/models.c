@@ -298,16 +298,13 @@ void bones_show(const struct stage *stage, struct core *core)
     int under = hover->thing == &thing_bone ? hover->model : -1;
     const bool searches = under < 0 && !core->focus.brush.on &&
                           rect_contains(view->viewport, core->input.pointer_x, core->input.pointer_y);
-    for (int rig = -1; searches && under < 0 && (rig = document_next_rig(core->document, RIG_MODEL, rig)) >= 0;) {
-        const struct gltf_pose *pose = models_pose(core->models, core->document, rig, POSE_SHOWN);
-        for (int m = 0; pose && m < view->model_count; m++) {
-            const struct stage_model *model = &view->models[m];
-            struct rect box;
-            if (model->posed.pose == pose &&
-                (!stage_project_box(stage, place, model->lo, model->hi, &box) ||
-                 rect_contains(rect_inset(box, -NEAR_BOX), core->input.pointer_x, core->input.pointer_y)))
-                under = rig;
-        }
+    for (int m = 0; searches && under < 0 && m < view->model_count; m++) {
+        const struct stage_model *model = &view->models[m];
+        struct rect box;
+        if (model->rig >= 0 &&
+            (!stage_project_box(stage, place, model->lo, model->hi, &box) ||
+             rect_contains(rect_inset(box, -NEAR_BOX), core->input.pointer_x, core->input.pointer_y)))
+            under = model->rig;
     }
     const struct way chosen = way_chosen(core);
     struct way meant = {-1, -1, -1};

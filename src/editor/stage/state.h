@@ -152,10 +152,7 @@ struct stage {
         double right[3], up[3];  ///< of the screen, world
         double pixels_per_metre; ///< there
     } pin_drag;                  ///< the pin that is dragged
-    struct floor_drag {
-        int rig; ///< index in the document
-        double start, pixels_per_metre;
-    } floor_drag; ///< the dragged floor
+    double floor_scale;          ///< of the dragged floor, pixels per metre
     struct painting painting;
 };
 

@@ -151,14 +151,13 @@ static const double LEAST_LINE = 1.5;    ///< pixels; shorter lines to the point
 static const double DEGREE = 0.017453292519943295;
 
 /// How a pull controls an axis: by the rig's channel for it, preferably the active spline's.
-static struct tail_drag_axis axis_for(const struct core *core, const struct rig *rig, const struct pose *strand,
-                                      int joint, enum axis axis)
+static struct tail_drag_axis axis_for(const struct core *core, int rig, int joint, enum axis axis)
 {
     const struct channel *channel = NULL;
-    const int joints = strand->count - 1;
+    const int joints = bones_joints(core, rig);
     double gain = 0;
     int count;
-    const struct channel *channels = rig_channels(rig, &count);
+    const struct channel *channels = rig_channels(core->document->rigs[rig], &count);
     for (int c = 0; c < count; c++) {
         const bool is_better = !channel || channels[c].spline == core->focus.active;
         if (channels[c].axis == axis && is_better) channel = &channels[c];
@@ -381,9 +380,8 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
     struct rig_pose posed;
     drag_begin(core, &strand_owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);
     *grab = (struct tail_drag){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
-    if (!strand_pose(stage, grab->rig, core->view.playback.position, NULL, &posed)) return;
-    grab->axis[AXIS_SIDE] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_SIDE);
-    grab->axis[AXIS_UP] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_UP);
+    grab->axis[AXIS_SIDE] = axis_for(core, grab->rig, grab->joint, AXIS_SIDE);
+    grab->axis[AXIS_UP] = axis_for(core, grab->rig, grab->joint, AXIS_UP);
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline)
         grab->axis[AXIS_UP].active = false;
     drag_inertia_stop(stage, core->document, grab->rig);
