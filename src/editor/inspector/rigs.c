@@ -110,12 +110,6 @@ void inspector_show_clicked(struct inspector *in, int rig)
 
 enum { MAX_COPIES = 4, MAX_ADDED = 5 + MAX_COPIES, ADDED_LABEL = 96, ADDED_WIDTH = 244 };
 
-static void open_add(struct inspector *in, struct rect at)
-{
-    at.w = ADDED_WIDTH;
-    ui_popup_open(&in->ui, inspector_add_list.name, 0, at);
-}
-
 void inspector_remove_rig(struct inspector *in, int unused)
 {
     (void)unused;
@@ -148,7 +142,8 @@ void inspector_rigs(struct inspector *in)
     const struct rect r = ui_row(&in->ui, UI_ROW);
     const int before = in->core->document->rig_count, rig = in->selected;
     const int pressed = inspector_icons(in, r, buttons, before > 0 ? 3 : 1);
-    if (pressed == 0) open_add(in, (struct rect){r.x - 2, r.y, INSPECTOR_ICON, r.h});
+    const struct rect below = {r.x - 2, r.y, ADDED_WIDTH, r.h};
+    if (pressed == 0) ui_popup_open(&in->ui, inspector_add_list.name, 0, below);
     if (pressed == 1) rigs_copy(in->core, rig);
     if (pressed == 2) rigs_ask_remove(in->core, rig);
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
@@ -198,8 +193,9 @@ void inspector_add_menu(struct inspector *in, int unused)
     const float x = in->core->input.pointer_x, y = in->core->input.pointer_y;
     const bool beside = rect_contains(layout->stage, x, y) || rect_contains(layout->curves, x, y);
     const struct rect panel = layout->inspector;
+    const struct rect at = {beside ? x : panel.x + UI_PAD, beside ? y : panel.y, ADDED_WIDTH, beside ? 0 : 4};
     (void)unused;
-    open_add(in, beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
+    ui_popup_open(&in->ui, inspector_add_list.name, 0, at);
     if (beside) in->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
     ui_push(&in->ui, 0);
     in->ui.focus = ui_id(&in->ui, "item.tail"); // the first row
@@ -444,9 +440,7 @@ void inspector_tail(struct inspector *in)
         const struct rect r = ui_row(ui, UI_ROW);
         ui_hint(ui, r, "A channel of this rig, and the spline that drives it");
         const uint32_t color = spline_list_color(in->core->document, channel->spline);
-        if (!ui_list_row(ui, r, name, text, color, c == in->channel)) continue;
-        choose_channel(in, c);
-        break;
+        if (ui_list_row(ui, r, name, text, color, c == in->channel)) choose_channel(in, c);
     }
     ui_space(ui, 4);
     if (is_tail) inspector_angles(in, ANGLE_REST);
