@@ -290,40 +290,6 @@ static void build_each(struct inspector *in, struct angle_view *view)
         change_angles(in, view->kind, change, number->undo, view->names[0], &in->drawn);
 }
 
-/// The curve of several angles.
-static void build_curve(struct inspector *in, enum angle_kind kind, const struct angles *angles)
-{
-    struct angle_view view = {.kind = kind, .angles = angles};
-    int *joint = &in->joint[kind];
-    if (angles->form == ANGLES_EACH && *joint >= angles->count) *joint = angles->count - 1;
-    lay_out(in, &view);
-    const bool is_ramp = angles->form == ANGLES_RAMP;
-    if (in->ui.pass == UI_PASS_DRAW) {
-        struct drawlist *list = in->ui.list;
-        const struct rect *plot = &view.plot;
-        const int count = angles->count;
-        const float zero = roundf(plot->y + plot->h * (float)(view.high / (view.high - view.low)));
-        float line[ANGLES_MAX_JOINTS + 2][2];
-        drawlist_rounded(list, view.box, 4, theme()->raised);
-        drawlist_rect(list, (struct rect){plot->x, zero, plot->w, 1}, theme()->grid_major);
-        for (int i = 0; i < count; i++) {
-            float *at = line[i + 1];
-            place_angle(&view, i, at);
-            const float x = at[0], y = at[1], r = 4, diamond[] = {x - r, y, x, y - r, x + r, y, x, y + r};
-            if (is_ramp) drawlist_convex(list, diamond, 4, theme()->accent);
-            if (!is_ramp) drawlist_rect(list, (struct rect){x - 1.5f, y - 1.5f, 3, 3}, theme()->accent);
-        }
-        line[0][0] = plot->x; // a ramp is constant outside its points
-        line[0][1] = line[1][1];
-        line[count + 1][0] = plot->x + plot->w;
-        line[count + 1][1] = line[count][1];
-        drawlist_line(list, line[is_ramp ? 0 : 1], is_ramp ? count + 2 : count, 1.5f, theme()->accent);
-        if (!is_ramp) drawlist_disc(list, line[view.selected + 1], 3.5f, theme()->accent);
-    }
-    if (is_ramp) build_ramp(in, &view);
-    if (!is_ramp) build_each(in, &view);
-}
-
 float inspector_highest_curve(const struct inspector *in, enum angle_kind kind)
 {
     const struct document *document = in->core->document;
@@ -366,5 +332,36 @@ void inspector_angles(struct inspector *in, enum angle_kind kind)
     for (int i = 0; i < 2; i++) ramp.ramp[i] = (struct ramp_point){i, each.value[i * (joints - 1)]};
     if (build_switch(in, kind, angles, &ramp, left) || build_switch(in, kind, angles, &each, right)) return;
     const struct angles now = *angles; // an edit may free them while they are shown
-    if (now.form != ANGLES_ONE) build_curve(in, kind, &now);
+    if (now.form == ANGLES_ONE) return;
+
+    // The curve of several.
+    struct angle_view view = {.kind = kind, .angles = &now};
+    int *joint = &in->joint[kind];
+    if (now.form == ANGLES_EACH && *joint >= now.count) *joint = now.count - 1;
+    lay_out(in, &view);
+    const bool is_ramp = now.form == ANGLES_RAMP;
+    if (in->ui.pass == UI_PASS_DRAW) {
+        struct drawlist *list = in->ui.list;
+        const struct rect *plot = &view.plot;
+        const int count = now.count;
+        const float zero = roundf(plot->y + plot->h * (float)(view.high / (view.high - view.low)));
+        float line[ANGLES_MAX_JOINTS + 2][2];
+        drawlist_rounded(list, view.box, 4, theme()->raised);
+        drawlist_rect(list, (struct rect){plot->x, zero, plot->w, 1}, theme()->grid_major);
+        for (int i = 0; i < count; i++) {
+            float *at = line[i + 1];
+            place_angle(&view, i, at);
+            const float x = at[0], y = at[1], diamond[] = {x - 4, y, x, y - 4, x + 4, y, x, y + 4};
+            if (is_ramp) drawlist_convex(list, diamond, 4, theme()->accent);
+            if (!is_ramp) drawlist_rect(list, (struct rect){x - 1.5f, y - 1.5f, 3, 3}, theme()->accent);
+        }
+        line[0][0] = plot->x; // a ramp is constant outside its points
+        line[0][1] = line[1][1];
+        line[count + 1][0] = plot->x + plot->w;
+        line[count + 1][1] = line[count][1];
+        drawlist_line(list, line[is_ramp ? 0 : 1], is_ramp ? count + 2 : count, 1.5f, theme()->accent);
+        if (!is_ramp) drawlist_disc(list, line[view.selected + 1], 3.5f, theme()->accent);
+    }
+    if (is_ramp) build_ramp(in, &view);
+    if (!is_ramp) build_each(in, &view);
 }
