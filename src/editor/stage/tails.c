@@ -14,6 +14,7 @@
 #include "editor/stage/state.h"
 #include "maths/maths.h"
 #include "model/vector.h"
+#include "spline/symmetric.h"
 #include "ui/theme.h"
 #include <assert.h>
 #include <limits.h>
@@ -178,28 +179,20 @@ bool tail_drag_holds(const struct document *document, int rig, int joint)
 /// (JJᵀ + Φ)⁻¹ miss; J by columns. Returns JJᵀ's largest eigenvalue, and with it 0 if nothing moves the point.
 static double pull_back(const double (*column)[2], int columns, const double miss[2], double pull[2])
 {
-    double a = 0, b = 0, d = 0;
+    double square[4] = {0}, values[2], vectors[4];
     for (int c = 0; c < columns; c++) {
-        a += column[c][0] * column[c][0];
-        b += column[c][0] * column[c][1];
-        d += column[c][1] * column[c][1];
+        for (int k = 0; k < 4; k++) square[k] += column[c][k / 2] * column[c][k % 2];
     }
-    const double middle = (a + d) / 2, apart = maths_hypot((a - d) / 2, b), most = middle + apart;
-    double way[2] = {b, most - a}; // the best direction
-    if (maths_hypot(way[0], way[1]) < 1e-9 * most) way[0] = a >= d, way[1] = a < d;
-    const double length = maths_hypot(way[0], way[1]);
+    symmetric_eigen(2, square, values, vectors);
+    const double most = fmax(values[0], values[1]);
     pull[0] = pull[1] = 0;
-    if (!(most > 0)) return 0;
-    for (int k = 0; k < 2; k++) way[k] /= length;
-
-    // The other direction gives way, unless it moves at least a fifth as far as the best one.
-    const double least = fmax(middle - apart, 0), share = least / most;
-    const double beyond = share > 0 ? fmax(0, REACH / share * (REACH / share) - 1) : INFINITY;
-    const double along = (way[0] * miss[0] + way[1] * miss[1]) / most;
-    const double across = (way[0] * miss[1] - way[1] * miss[0]) / (least + beyond * beyond * most);
-    pull[0] = along * way[0] - across * way[1];
-    pull[1] = along * way[1] + across * way[0];
-    return most;
+    for (int e = 0; e < 2 && most > 0; e++) { // a direction gives way, unless it moves a fifth as far as the best one
+        const double share = fmax(values[e], 0) / most, way[2] = {vectors[e], vectors[2 + e]};
+        const double beyond = share > 0 ? fmax(0, REACH / share * (REACH / share) - 1) : INFINITY;
+        const double along = (way[0] * miss[0] + way[1] * miss[1]) / (most * (share + beyond * beyond));
+        for (int k = 0; k < 2; k++) pull[k] += along * way[k];
+    }
+    return fmax(most, 0);
 }
 
 /// The knot that a pull takes along to its pose: the nearest one within a quarter of a period, and at least a frame; −1: none, or there is one.
