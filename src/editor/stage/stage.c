@@ -469,16 +469,15 @@ void stage_show(struct stage *stage, struct core *core)
         const float *base = pose->matrix[0] + 12;
         const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose->scale};
         float xy[2];
-        bool free = stage_project_point(stage, feet, xy);
-        if (!free) continue;
+        bool free = true;
+        if (!stage_project_point(stage, feet, xy)) continue;
         struct rect place = {.w = ceilf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, rig->name)) + DOT + 3 * PAD,
                              .h = HEIGHT};
         place.x = roundf(fmaxf(fminf(xy[0] - place.w / 2, r.x + r.w - place.w), r.x));
         place.y = roundf(fminf(xy[1] + BELOW, r.y + r.h - HEIGHT));
         for (int i = 0; i < count && free; i++) {
-            const struct rect *other = &shown[i];
-            free = !(place.x < other->x + other->w && other->x < place.x + place.w && place.y < other->y + other->h &&
-                     other->y < place.y + place.h);
+            const struct rect both = rect_intersect(place, shown[i]);
+            free = both.w <= 0 || both.h <= 0;
         }
         if (!free) continue;
         const struct rect dot = {place.x + PAD, place.y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
