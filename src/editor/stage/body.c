@@ -175,18 +175,6 @@ static void base_put_knot(struct core *core, int spline, int sample, double valu
     core_put_knot(core, spline, &knot);
 }
 
-/// Remembers the rigs on the held body, before any edit.
-static void base_begin(struct stage *stage, const struct core *core)
-{
-    struct body_drag *hold = &stage->body_drag;
-    const struct tail *tail = tail_of(core->document, hold->rig);
-    hold->loops = tail->channel_count > 0;
-    for (int c = 0; c < tail->channel_count; c++) {
-        hold->hangs[c] = swing_hangs(tail->channels, tail->channel_count, &tail->channels[c]);
-        hold->loops &= spline_start(core->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
-    }
-}
-
 /// The spline of a coordinate; creates a cubic if it is fixed. -1 on failure.
 static int base_spline(const struct stage *stage, struct core *core, int coordinate)
 {
@@ -528,7 +516,6 @@ static void place_body(struct stage *stage, struct core *core)
     char report[REPORT_SIZE] = "", why[STOPPED_SIZE] = "";
     bool any = false;
     int swings = -1;
-    if (keys) base_begin(stage, core);
     say(report, keys ? "Keyed " : "Moved for the whole shot: ");
     for (int k = 0; k < 3; k++) {
         if (offset[k] == 0) continue;
@@ -823,7 +810,6 @@ static void end_body(void *room, struct core *core, bool keep)
     if (records) { // splines for coordinates that moved, and channels that follow them
         char report[REPORT_SIZE] = "", why[STOPPED_SIZE] = "";
         int made = 0, swings = -1;
-        base_begin(stage, core);
         for (int k = 0; k < 3; k++) {
             double most = 0;
             for (int i = 0; i < record->count; i++) most = fmax(most, fabs(record->way[k][i]));
@@ -864,6 +850,11 @@ void press_body(void *room, struct core *core, const struct hover *hover, const 
     hold->lifts = event->mods & MOD_CTRL;
     const float sitting = stand.ground + FOX_BASE_HEIGHT * (float)tail->length / FOX_TAIL_LENGTH;
     hold->lowest = fmin(0, (double)(sitting - stand.base[1]));
+    hold->loops = tail->channel_count > 0;
+    for (int c = 0; c < tail->channel_count; c++) {
+        hold->hangs[c] = swing_hangs(tail->channels, tail->channel_count, &tail->channels[c]);
+        hold->loops &= spline_start(core->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
+    }
 }
 
 const struct thing thing_body = {
