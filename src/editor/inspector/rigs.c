@@ -46,19 +46,17 @@ void inspector_find_rig(struct inspector *in)
     if (character && view->drive >= character->drive_count) view->drive = 0;
 }
 
-/// Shows a rig in the section of its kind.
-static void show_rig(struct inspector *in, int rig)
+/// Shows a rig, and one of its inputs, in the section of its kind.
+static void show_rig(struct inspector *in, int rig, int input)
 {
-    struct core *core = in->core;
-    struct character_view *view = &core->focus.characters;
-    const int number = document_rig_number(core->document, rig);
+    struct character_view *view = &in->core->focus.characters;
     in->selected = rig;
-    if (is_tail_or_chain(core->document, rig)) {
-        in->channel = rig == in->rig ? in->channel : 0;
+    if (is_tail_or_chain(in->core->document, rig)) {
         in->rig = rig;
+        in->channel = input;
     } else {
-        view->drive = number == view->character ? view->drive : 0;
-        view->character = number;
+        view->character = document_rig_number(in->core->document, rig);
+        view->drive = input;
     }
 }
 
@@ -79,11 +77,7 @@ void inspector_show_spline(struct inspector *in, int spline)
     for (int r = 0; r < document->rig_count && found < 0; r++) {
         if (input_of(document->rigs[r], spline) >= 0) found = r;
     }
-    if (found < 0) return;
-    const int input = input_of(document->rigs[found], spline);
-    show_rig(in, found);
-    if (is_tail_or_chain(document, found)) in->channel = input;
-    if (document->rigs[found]->kind == RIG_MODEL) in->core->focus.characters.drive = input;
+    if (found >= 0) show_rig(in, found, input_of(document->rigs[found], spline));
 }
 
 void inspector_show_rig(struct inspector *in, int rig)
@@ -92,7 +86,7 @@ void inspector_show_rig(struct inspector *in, int rig)
         [RIG_TAIL] = "section.tail", [RIG_CHAIN] = "section.tail", [RIG_MODEL] = "section.character"};
     const struct rig *chosen = in->core->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) in->core->focus.bone.any = false;
-    show_rig(in, rig);
+    show_rig(in, rig, 0);
     in->core->focus.limb = chosen->id;
     inspector_unfold(in, sections[chosen->kind]);
     if (rig_input_count(chosen) == 0) return;
@@ -454,9 +448,9 @@ void inspector_tail(struct inspector *in)
         const struct rect field = {named.x, named.y + 2, named.w, named.h - 4};
         const struct row name = {.name = "tail.name", .label = rig_title(rig), .hint = "Click to rename"};
         if (inspector_button(in, field, &name)) ui_line_begin(ui, rename.name, name.label);
-    } else if (inspector_line(in, named, &rename)) {
-        if (!edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->step.error))
-            ui_line_again(ui, rename.name);
+    } else if (inspector_line(in, named, &rename) &&
+               !edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->step.error)) {
+        ui_line_again(ui, rename.name);
     }
     if (is_tail) {
         inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);
