@@ -65,25 +65,15 @@ bool inspector_line(struct inspector *in, struct rect r, const struct row *row)
     return inspector_opens(in, ui_line(&in->ui, r, row->name) == UI_LINE_DONE, row->undo);
 }
 
-int inspector_icons(struct inspector *in, struct rect r, const struct row *rows, int count)
+int inspector_buttons(struct inspector *in, struct rect r, const struct row *rows, int count)
 {
+    const bool icons = !rows->label;
+    const float gap = icons ? 6 : 4;
     int pressed = -1;
-    for (int i = 0; i < count; i++) {
-        const struct rect icon = {r.x - 2 + (float)i * (INSPECTOR_ICON + 6), r.y, INSPECTOR_ICON, r.h};
-        if (inspector_icon(in, icon, &rows[i])) pressed = i;
-    }
-    return pressed;
-}
-
-/// Buttons of one width; the pressed one, or -1.
-static int build_buttons(struct inspector *in, const struct row *rows, int count)
-{
-    enum { GAP = 4 };
-    struct rect r = ui_row(&in->ui, UI_ROW);
-    int pressed = -1;
-    r.w = (r.w - (float)((count - 1) * GAP)) / (float)count;
-    for (int i = 0; i < count; i++, r.x += r.w + GAP) {
-        if (inspector_button(in, r, &rows[i])) pressed = i;
+    r.w = icons ? INSPECTOR_ICON : (r.w - (float)(count - 1) * gap) / (float)count;
+    if (icons) r.x -= 2;
+    for (int i = 0; i < count; i++, r.x += r.w + gap) {
+        if (icons ? inspector_icon(in, r, &rows[i]) : inspector_button(in, r, &rows[i])) pressed = i;
     }
     return pressed;
 }
@@ -536,7 +526,7 @@ static void build_holds(struct inspector *in)
         {NAMED("settles", "Settle"),
          .hint = "Let the motion stay here: it overshoots the value and swings about it (Alt+P)",
          .lit = all.settles}};
-    const int pressed = build_buttons(in, rows, 4);
+    const int pressed = inspector_buttons(in, ui_row(&in->ui, UI_ROW), rows, 4);
     if (pressed == 3) {
         core_toggle_settles(in->core);
     } else if (pressed >= 0 && pressed != lit) {
@@ -607,7 +597,7 @@ static void build_knot(struct inspector *in)
              .hint = "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
             {NAMED("slope.switch", sloped ? "Remove" : "Add"),
              .hint = sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)"}};
-        const int pressed = in->core->cleaning.of ? -1 : build_buttons(in, rows, 3);
+        const int pressed = in->core->cleaning.of ? -1 : inspector_buttons(in, ui_row(ui, UI_ROW), rows, 3);
         if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
     } else { // the spline's knots
         const int knots = spline->knot_count;
@@ -625,7 +615,7 @@ static void build_knot(struct inspector *in)
         enum { FEW = 6 }; // need no thinning
         static const struct row simplify = {NAMED("knot.simplify", "Simplify"),
                                             .hint = "Fewer knots for nearly the same motion"};
-        if (!in->core->cleaning.of && knots > FEW && build_buttons(in, &simplify, 1) == 0)
+        if (!in->core->cleaning.of && knots > FEW && inspector_button(in, ui_row(ui, UI_ROW), &simplify))
             core_simplify(in->core, true);
     }
     if (in->core->cleaning.of) {

@@ -23,8 +23,8 @@ void inspector_show_clicked(struct inspector *in, int rig);
 void inspector_show_spline(struct inspector *in, int spline);
 /// A: the menu of things to add, at the pointer or at the top of the inspector.
 void inspector_add_menu(struct inspector *in, int unused);
-enum added { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_SPLINE };
-/// Adds something and shows it. ADD_COPY copies the shown rig.
+enum added { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_SPLINE, ADD_COPY_OF };
+/// Adds something and shows it. ADD_COPY copies the shown rig, ADD_COPY_OF + n the rig n.
 void inspector_add(struct inspector *in, int what);
 /// Applies a feel preset, in panel order, to the active spline.
 void inspector_preset(struct inspector *in, int preset);

@@ -135,7 +135,7 @@ void inspector_rigs(struct inspector *in)
 
     const struct rect r = ui_row(&in->ui, UI_ROW);
     const int before = in->core->document->rig_count, rig = in->selected;
-    const int pressed = inspector_icons(in, r, buttons, before > 0 ? 3 : 1);
+    const int pressed = inspector_buttons(in, r, buttons, before > 0 ? 3 : 1);
     const struct rect below = {r.x - 2, r.y, ADDED_WIDTH, r.h};
     if (pressed == 0) ui_popup_open(&in->ui, inspector_add_list.name, 0, below);
     if (pressed == 1) rigs_copy(in->core, rig);
@@ -143,23 +143,21 @@ void inspector_rigs(struct inspector *in)
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
-static void carry_out(struct inspector *in, enum added what, int rig)
+void inspector_add(struct inspector *in, int what)
 {
     const int before = in->core->document->rig_count;
     if (what == ADD_TAIL) rigs_add_tail(in->core);
     if (what == ADD_FILE) in->core->question.adds = true;
-    if (what == ADD_COPY) rigs_copy(in->core, rig);
+    if (what == ADD_COPY) rigs_copy(in->core, in->selected);
     if (what == ADD_CHAIN) bones_make_chain(in->core, false);
     if (what == ADD_SPLINE) spline_list_change(in->core, LIST_ADD);
+    if (what >= ADD_COPY_OF) rigs_copy(in->core, what - ADD_COPY_OF);
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
-
-void inspector_add(struct inspector *in, int what) { carry_out(in, (enum added)what, in->selected); }
 
 static void choose_added(struct inspector *in, const struct dropdown *list)
 {
     const struct document *document = in->core->document;
-    enum { COPIES = ADD_SPLINE + 1 }; // the value of an item that copies the first rig
     struct ui_item items[MAX_ADDED] = {{"tail", "Tail", 0, ADD_TAIL},
                                        {"file", "Character or background file …", 0, ADD_FILE}};
     char names[MAX_COPIES][24], labels[MAX_COPIES][ADDED_LABEL];
@@ -169,14 +167,13 @@ static void choose_added(struct inspector *in, const struct dropdown *list)
         if (document->rigs[r]->kind != RIG_MODEL) continue;
         snprintf(names[copies], sizeof names[0], "copy.%d", r);
         snprintf(labels[copies], ADDED_LABEL, "One more %.*s", name_fit(title, 80), title);
-        items[count++] = (struct ui_item){names[copies], labels[copies], 0, COPIES + r};
+        items[count++] = (struct ui_item){names[copies], labels[copies], 0, ADD_COPY_OF + r};
         copies++;
     }
     if (document_find_rig(document, RIG_MODEL, 0) >= 0)
         items[count++] = (struct ui_item){"chain", "Chain from the selected bone (J)", 0, ADD_CHAIN};
     items[count++] = (struct ui_item){"spline", "Spline", 0, ADD_SPLINE};
-    const int picked = inspector_list(in, list, items, count, -1);
-    if (picked >= 0) carry_out(in, picked < COPIES ? (enum added)picked : ADD_COPY, picked - COPIES);
+    inspector_add(in, inspector_list(in, list, items, count, -1));
 }
 
 const struct dropdown inspector_add_list = {.name = "add", .build = choose_added};
@@ -392,7 +389,7 @@ static void build_channel(struct inspector *in)
         .undo = "Set what bends", CHOICES(parts)};
     struct error *error = &in->core->step.error;
     const int rig = in->rig, spline = in->core->focus.active;
-    const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
+    const int pressed = inspector_buttons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
     if (pressed == 0 && edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error))
         in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
     if (pressed == 1) edit_channel_remove(in->core->document, (struct channel_place){rig, in->channel}, error);

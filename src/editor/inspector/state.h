@@ -99,8 +99,8 @@ bool inspector_toggle(struct inspector *in, struct rect r, const struct row *row
 bool inspector_line(struct inspector *in, struct rect r, const struct row *row);
 
 #define INSPECTOR_ICON theme_row() ///< width of an icon button
-/// Icon buttons from left to right; the pressed one, or -1.
-int inspector_icons(struct inspector *in, struct rect r, const struct row *rows, int count);
+/// Buttons of one width, or icon buttons from left to right; the pressed one, or -1.
+int inspector_buttons(struct inspector *in, struct rect r, const struct row *rows, int count);
 
 /// A list over the panel.
 struct dropdown {
