@@ -249,12 +249,6 @@ static float radius_of(const struct brush *brush, const struct figure *figure)
     return (float)brush->radius * (figure->hi[1] - figure->lo[1]);
 }
 
-void brush_free(struct painting *painting)
-{
-    pool_free(&painting->work.pool);
-    painting->work = (struct brush_work){0};
-}
-
 /// The painted figure, with the skin posed as shown, or NULL. Allocates if the figure has more vertices than any before.
 static const struct figure *pose_figure(struct stage *stage, const struct core *core, int *coordinate)
 {
@@ -264,7 +258,8 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
     const int vertices = figure->character.vertex_count;
     if (work->capacity < vertices) {
         const size_t room = (size_t)vertices;
-        brush_free(&stage->painting);
+        pool_free(&work->pool);
+        *work = (struct brush_work){0};
         work->vertices = pool_take(&work->pool, room, sizeof *work->vertices);
         work->values = pool_take(&work->pool, room, sizeof *work->values);
         work->steps = pool_take(&work->pool, room, sizeof *work->steps);

@@ -87,7 +87,7 @@ struct stage *stage_create(const struct core *core)
 
 void stage_destroy(struct stage *stage)
 {
-    brush_free(&stage->painting);
+    pool_free(&stage->painting.work.pool);
     free(stage->skin.posed);
     free(stage);
 }

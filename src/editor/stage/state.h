@@ -232,8 +232,6 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
 /// Draws markers, highlights, and the path of the held or selected point.
 void pins_show(struct stage *stage, struct core *core);
 
-/// Frees its memory.
-void brush_free(struct painting *painting);
 /// Handles a press on the stage; true if it starts a stroke.
 bool brush_press(struct stage *stage, struct core *core, const struct event *event);
 /// Finds the surface point under the pointer, and the brush's reach. Call after posing.
