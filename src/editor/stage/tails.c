@@ -22,7 +22,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { BLOBS_OF_ONE_TAIL = 20 };
+enum { BLOBS_OF_ONE_TAIL = 20 }; ///< STAGE_MAX_BLOBS has them for all tails, which are posed first
 
 static const float DUSK = 0.35f; ///< for a fox of bind size
 
@@ -41,9 +41,8 @@ void stage_pose_tail(struct stage *stage, const struct core *core, int rig)
     if (stage->tail_count == STAGE_MAX_TAILS) return;
     posing.memory = POSE_SHOWN;
     const bool has_fox = tail_pose(&posing, rig, core->view.playback.position, NULL, &posed, &body);
-    const int room = STAGE_MAX_BLOBS - view->blob_count;
-    view->blob_count += pose_blobs(&posed.strand, view->key_from, view->blobs + view->blob_count,
-                                   room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
+    struct shadow_blob *blobs = view->blobs + view->blob_count;
+    view->blob_count += pose_blobs(&posed.strand, view->key_from, blobs, BLOBS_OF_ONE_TAIL);
     struct stage_model *fox = has_fox ? models_show(view, &body) : NULL;
     if (fox) fox->dusk = DUSK * posed.strand.scale;
     stage->strands[stage->strand_count++] =
