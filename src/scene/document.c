@@ -578,16 +578,15 @@ bool reference_next(const struct document *document, struct reference *reference
         *reference = (struct reference){.kind = REFERENCE_CHANNEL};
     }
     for (; reference->owner < document->rig_count; reference->owner++, reference->number = 0) {
-        int inputs, channels;
-        const struct rig *rig = document->rigs[reference->owner];
-        const int splines = fields_splines(rig_fields(rig), rig, &inputs);
-        const enum reference_kind of_input = rig_channels(rig, &channels) ? REFERENCE_CHANNEL : REFERENCE_DRIVE;
-        while (reference->number < splines) {
+        struct rig *rig = document->rigs[reference->owner];
+        const int inputs = rig_input_count(rig);
+        for (const int *spline; (spline = rig_spline(rig, reference->number));) {
             const int n = reference->number++;
+            const enum reference_kind of_input = rig->kind == RIG_MODEL ? REFERENCE_DRIVE : REFERENCE_CHANNEL;
             reference->kind = n < inputs ? of_input : REFERENCE_POSITION;
             reference->which = n < inputs ? n : n - inputs;
-            reference->spline = fields_spline(rig_fields(rig), rig, n);
-            if (reference->spline >= 0) return true;
+            reference->spline = *spline;
+            if (*spline >= 0) return true;
         }
     }
     return false;
@@ -599,8 +598,7 @@ void reference_set(struct document *document, const struct reference *reference,
         document_own_spline(document, reference->owner)->parameter[reference->which].track = spline;
         return;
     }
-    struct rig *rig = document_own_rig(document, reference->owner);
-    fields_set_spline(rig_fields(rig), rig, reference->number - 1, spline);
+    *rig_spline(document_own_rig(document, reference->owner), reference->number - 1) = spline;
 }
 
 int reference_count(const struct document *document, int spline)

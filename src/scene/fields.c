@@ -49,63 +49,6 @@ static size_t extra_place(const struct field *fields)
     return fields->place;
 }
 
-/// The number of rows that hold a spline's index.
-static int spline_rows(const struct field *fields)
-{
-    int count = 0;
-    for (const struct field *field = fields; field->key; field++) count += field->kind == FIELD_SPLINE;
-    return count;
-}
-
-int fields_splines(const struct field *fields, const void *object, int *inputs)
-{
-    int tracks = 0;
-    *inputs = spline_rows(fields);
-    for (const struct field *field = fields; field->key; field++) {
-        if (field->kind == FIELD_LIST) *inputs += count_of(field, object) * spline_rows(field->rows);
-        if (field->kind == FIELD_PLACE) tracks += 3;
-    }
-    return *inputs + tracks;
-}
-
-/// The offset of the n-th spline's index in the object or, if `*list` is not NULL, in an element of that list.
-static size_t find_spline(const struct field *fields, const void *object, int n, const struct field **list,
-                          int *element)
-{
-    *list = NULL;
-    for (const struct field *field = fields; field->key; field++) {
-        const bool is_list = field->kind == FIELD_LIST;
-        const int each = is_list ? spline_rows(field->rows) : field->kind == FIELD_SPLINE;
-        const int all = is_list ? each * count_of(field, object) : each;
-        n -= all;
-        if (n >= 0) continue;
-        if (!is_list) return field->place;
-        const struct field *row = field->rows;
-        for (int before = (n + all) % each; row->kind != FIELD_SPLINE || before-- > 0;) row++;
-        *list = field;
-        *element = (n + all) / each;
-        return row->place;
-    }
-    for (; fields->kind != FIELD_PLACE || n >= 3; fields++) n -= fields->kind == FIELD_PLACE ? 3 : 0;
-    return fields->place + (size_t)n * sizeof(struct param) + offsetof(struct param, track);
-}
-
-int fields_spline(const struct field *fields, const void *object, int n)
-{
-    const struct field *list;
-    int element;
-    const size_t at = find_spline(fields, object, n, &list, &element);
-    return *(const int *)look(list ? element_of(list, object, element) : object, at);
-}
-
-void fields_set_spline(const struct field *fields, void *object, int n, int spline)
-{
-    const struct field *list;
-    int element;
-    const size_t at = find_spline(fields, object, n, &list, &element);
-    *(int *)inside(list ? element_of(list, object, element) : object, at) = spline;
-}
-
 void fields_reset(const struct field *fields, void *object)
 {
     for (const struct field *field = fields; field->key; field++) {

@@ -259,12 +259,6 @@ struct field {
         0, INFINITY, true                                                                                            \
     }
 
-/// How many splines an object refers to: first by its inputs, which are its FIELD_SPLINE rows and those of its lists' elements, then by the tracks
-/// of its places. Reads and writes the index of the n-th; a track that follows nothing has −1.
-int fields_splines(const struct field *fields, const void *object, int *inputs);
-int fields_spline(const struct field *fields, const void *object, int n);
-void fields_set_spline(const struct field *fields, void *object, int n, int spline);
-
 /// Sets all members to their defaults.
 void fields_reset(const struct field *fields, void *at);
 

@@ -218,6 +218,9 @@ static inline bool rig_has_floor(const struct rig *rig) { return rig->kind == RI
 int rig_input_count(const struct rig *rig);
 int rig_input(const struct rig *rig, int input);
 
+/// The place of the n-th index of a spline: its inputs', then those of a tail's position, −1 where it follows none. NULL: there are no more.
+int *rig_spline(struct rig *rig, int n);
+
 /// The same for inputs that can move pinned points; −1 for an input that moves only the body. And the first such spline; −1: none.
 int rig_point_input(const struct rig *rig, int input);
 int rig_point_spline(const struct rig *rig);

@@ -281,7 +281,6 @@ struct rig_functions {
     const struct field *fields; ///< in the order of the file
     size_t title;               ///< place of the text that names it if it has no name
     const struct field *pins;   ///< the rows of a pin; NULL: it takes none
-    bool is_bent;               ///< by channels
 };
 
 _Static_assert(offsetof(struct tail, channels) == 0 && offsetof(struct chain, channels) == 0,
@@ -404,7 +403,7 @@ static const struct field tail_fields[] = {
 };
 
 static const struct rig_functions tail_functions = {
-    .word = "tail", .fields = tail_fields, .title = offsetof(struct rig, name), .pins = joint_pins, .is_bent = true};
+    .word = "tail", .fields = tail_fields, .title = offsetof(struct rig, name), .pins = joint_pins};
 
 // --- characters, and chains on them
 
@@ -461,8 +460,7 @@ static const struct field chain_fields[] = {
 static const struct rig_functions chain_functions = {.word = "chain",
                                                      .fields = chain_fields,
                                                      .title = offsetof(struct rig, chain.from),
-                                                     .pins = joint_pins,
-                                                     .is_bent = true};
+                                                     .pins = joint_pins};
 
 // --- all kinds
 
@@ -482,18 +480,29 @@ const char *rig_title(const struct rig *rig)
 
 const struct field *rig_fields(const struct rig *rig) { return kinds[rig->kind]->fields; }
 
+/// Whether channels bend it; if not, it has drives.
+static bool is_bent(const struct rig *rig) { return rig->kind != RIG_MODEL; }
+
 int rig_input_count(const struct rig *rig)
 {
-    int inputs;
-    fields_splines(rig_fields(rig), rig, &inputs);
-    return inputs;
+    return is_bent(rig) ? rig->bent.channel_count : rig->model.drive_count;
 }
 
-int rig_input(const struct rig *rig, int input) { return fields_spline(rig_fields(rig), rig, input); }
+int rig_input(const struct rig *rig, int input)
+{
+    return is_bent(rig) ? rig->bent.channels[input].spline : rig->model.drives[input].spline;
+}
+
+int *rig_spline(struct rig *rig, int n)
+{
+    const int inputs = rig_input_count(rig);
+    if (n < inputs) return is_bent(rig) ? &rig->bent.channels[n].spline : &rig->model.drives[n].spline;
+    return rig->kind == RIG_TAIL && n < inputs + 3 ? &rig->tail.position[n - inputs].track : NULL;
+}
 
 int rig_point_input(const struct rig *rig, int input)
 {
-    const bool is_point = !kinds[rig->kind]->is_bent || axis_bends(rig->bent.channels[input].axis);
+    const bool is_point = !is_bent(rig) || axis_bends(rig->bent.channels[input].axis);
     return is_point ? rig_input(rig, input) : -1;
 }
 
@@ -516,9 +525,8 @@ bool rig_is_moved(const struct rig *rig, int spline)
 
 struct channel *rig_channels(const struct rig *rig, int *count)
 {
-    const bool is_bent = kinds[rig->kind]->is_bent;
-    *count = is_bent ? rig->bent.channel_count : 0;
-    return is_bent ? rig->bent.channels : NULL;
+    *count = is_bent(rig) ? rig->bent.channel_count : 0;
+    return is_bent(rig) ? rig->bent.channels : NULL;
 }
 
 const struct field *rig_pin_fields(const struct rig *rig) { return kinds[rig->kind]->pins; }
