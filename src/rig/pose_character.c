@@ -91,8 +91,8 @@ static void find_pull(const struct model_rig *rig, const struct figure *figure, 
 
 static const double SLACK = 1e-9; ///< of the size
 
-static bool model_find(const struct posing *posing, const struct pin_query *query, pin_pull *c,
-                       struct pin_point *point)
+bool character_find_pin(const struct posing *posing, const struct pin_query *query, pin_pull *c,
+                        struct pin_point *point)
 {
     const struct document *document = posing->document;
     const struct model_rig *rig = &document->rigs[query->rig]->model;
@@ -157,7 +157,7 @@ static bool model_find(const struct posing *posing, const struct pin_query *quer
     return true;
 }
 
-static void model_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
+void character_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
     const struct model_rig *model = &posing->document->rigs[rig]->model;
     const struct figure *figure = models_figure(posing->models, posing->document, rig);
@@ -184,8 +184,6 @@ static void model_weigh(const struct posing *posing, int rig, const int *splines
         if (areas > 0) weights[i] += model->scale * model->scale * sum / areas;
     }
 }
-
-const struct pinning_functions model_pinning = {model_find, model_weigh};
 
 // --- lowest vertices: several samples at a time, so that most vertices can be excluded for all of them at once
 

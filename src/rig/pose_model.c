@@ -94,21 +94,14 @@ void posing_bend(const struct posing *posing, int rig, double position, const st
     for (int k = 0; k < 16; k++) posed->model.root[k] = k % 4 == 3 ? k == 15 : (float)root[3 * (k / 4) + k % 4];
 }
 
-bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                   struct rig_pose *posed)
-{
-    const enum rig_kind kind = posing->document->rigs[rig]->kind;
-    if (kind == RIG_TAIL) return tail_pose(posing, rig, position, by_hand, NULL, posed);
-    if (kind != RIG_MODEL) return rig_pose(posing, rig, position, by_hand, posed);
-    struct gltf_pose *pose = posing_clip(posing, rig, position, posing->memory);
-    if (pose) posing_bend(posing, rig, position, by_hand, pose, posed);
-    return pose;
-}
-
-static void model_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
+void rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 {
     const struct model_pose *model = &posed->model;
     vec3 box[2];
+    if (posed->kind == RIG_TAIL) {
+        pose_bounds(&posed->strand, lo, hi);
+        return;
+    }
     gltf_bounds_at(&posed->imported->bounds, model->gltf, model->pose,
                    model->figure ? model->figure->character.node : -1, box[0], box[1]);
     mat4s root = mat4_from(model->root);
@@ -318,5 +311,3 @@ bool clip_follow(const void *context, const struct document *document, const str
     for (int s = closes ? period : count; s < count; s++) samples[s] = samples[s - period];
     return true;
 }
-
-const struct posing_functions model_posing = {rig_pose_body, model_rig_bounds, &model_pinning};

@@ -3,10 +3,6 @@
 #include "maths/maths.h"
 #include <string.h>
 
-#define POSING_ROW(constant, name) [constant] = &name##_posing,
-const struct posing_functions *const posing_kinds[RIG_KINDS] = {RIG_KIND_LIST(POSING_ROW)};
-#undef POSING_ROW
-
 /// Motion of a rig by hand.
 static void add_hands(const struct posing *posing, int rig, const struct by_hand *by_hand, struct by_hand *sum)
 {
@@ -47,12 +43,19 @@ bool rig_pose(const struct posing *posing, int index, double position, const str
 {
     if (index < 0 || index >= posing->document->rig_count) return false;
     pose->kind = posing->document->rigs[index]->kind;
-    return posing_kinds[pose->kind]->pose(posing, index, position, by_hand, pose);
+    if (pose->kind == RIG_TAIL) return tail_pose(posing, index, position, by_hand, pose, NULL);
+    if (pose->kind == RIG_CHAIN) return chain_pose(posing, index, position, by_hand, &pose->strand);
+    struct gltf_pose *clip = posing_clip(posing, index, position, posing->memory);
+    if (clip) posing_bend(posing, index, position, by_hand, clip, pose);
+    return clip;
 }
 
-void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3])
+bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                   struct rig_pose *pose)
 {
-    posing_kinds[pose->kind]->bounds(pose, lo, hi);
+    const bool is_tail = posing->document->rigs[rig]->kind == RIG_TAIL;
+    return is_tail ? tail_pose(posing, rig, position, by_hand, NULL, pose)
+                   : rig_pose(posing, rig, position, by_hand, pose);
 }
 
 // --- for the scene
@@ -80,15 +83,16 @@ static bool source_find(const void *context, const struct evaluation *evaluation
 {
     const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
     if (query->count > 0) memset(c, 0, (size_t)query->count * sizeof *c);
-    return posing_kinds[document->rigs[query->rig]->kind]->pins->find(&posing, query, c, point);
+    const bool is_character = document->rigs[query->rig]->kind == RIG_MODEL;
+    return (is_character ? character_find_pin : strand_find_pin)(&posing, query, c, point);
 }
 
 static void source_weigh(const void *context, const struct document *document, int rig, const int *splines, int count,
                          double *weights)
 {
     const struct posing posing = {.document = document, .models = context, .at_rest = true};
-    const struct pinning_functions *pins = posing_kinds[document->rigs[rig]->kind]->pins;
-    if (pins) pins->weigh(&posing, rig, splines, count, weights);
+    const bool is_character = document->rigs[rig]->kind == RIG_MODEL;
+    (is_character ? character_weigh : strand_weigh)(&posing, rig, splines, count, weights);
 }
 
 static bool source_lowest(const void *context, const struct evaluation *evaluation, const struct document *document,

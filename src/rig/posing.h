@@ -95,22 +95,20 @@ void pose_character(const struct model_rig *rig, const struct figure *figure, co
 
 // --- private to src/rig: how each kind of rig is posed
 
-/// How points of a rig are found and moved, like model_source.find() and weigh(). `posing` uses the paper's look.
-struct pinning_functions {
-    bool (*find)(const struct posing *posing, const struct pin_query *query, pin_pull *c, struct pin_point *point);
-    void (*weigh)(const struct posing *posing, int rig, const int *splines, int count, double *weights);
-};
+/// How points of a tail or chain, or of a character, are found and moved, like model_source.find() and weigh(). `posing` uses the paper's look.
+bool strand_find_pin(const struct posing *posing, const struct pin_query *query, pin_pull *c,
+                     struct pin_point *point);
+void strand_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights);
+bool character_find_pin(const struct posing *posing, const struct pin_query *query, pin_pull *c,
+                        struct pin_point *point);
+void character_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights);
 
 /// For angles in files, which are degrees.
 static inline double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
 
-struct posing_functions {
-    /// All of `pose` but its kind is filled in. false if its model is missing.
-    bool (*pose)(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                 struct rig_pose *pose);
-    void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]); ///< NULL: it is not a body
-    const struct pinning_functions *pins;                                  ///< NULL: it has no pins
-};
+/// Where the joints of a chain are. False if its model is missing.
+bool chain_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                struct pose *strand);
 
 /// The places of its bones in its clip alone, or at rest, in the given memory; NULL if there is no model.
 struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, enum pose_memory memory);
@@ -132,9 +130,6 @@ double posing_clip_time(const struct document *document, double position, const 
 /// Its displacement by hand, metres.
 void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);
 
-/// How vertices of a model's soft mesh are found and moved.
-extern const struct pinning_functions model_pinning;
-
 /// Like model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
 bool clip_follow(const void *context, const struct document *document, const struct joint_motion *motion,
@@ -145,11 +140,5 @@ void pinning_add_channel(const struct channel *channel, int n, int joints, const
 
 /// Σ |c|²
 double pinning_square(const pin_pull c);
-
-/// By kind: tail_posing …
-extern const struct posing_functions *const posing_kinds[RIG_KINDS];
-#define POSING_FUNCTIONS(constant, name) extern const struct posing_functions name##_posing;
-RIG_KIND_LIST(POSING_FUNCTIONS)
-#undef POSING_FUNCTIONS
 
 #endif

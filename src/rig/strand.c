@@ -415,12 +415,12 @@ static void set_strand(const struct path *path, struct pose *strand)
     }
 }
 
-static bool chain_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                           struct rig_pose *posed)
+bool chain_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                struct pose *strand)
 {
     struct path path;
     if (!path_find(posing, rig, position, by_hand, &path)) return false;
-    set_strand(&path, &posed->strand);
+    set_strand(&path, strand);
     return true;
 }
 
@@ -457,17 +457,6 @@ bool tail_pose(const struct posing *posing, int rig, double position, const stru
     return true;
 }
 
-static bool tail_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                          struct rig_pose *posed)
-{
-    return tail_pose(posing, rig, position, by_hand, posed, NULL);
-}
-
-static void tail_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
-{
-    pose_bounds(&posed->strand, lo, hi);
-}
-
 // --- pinned: points where joints end
 //
 // Let L be the matrix from the frame of a bent joint to the world. A turn of the joint about an axis a moves a point at r from the joint, in
@@ -499,8 +488,7 @@ static void add_bends(const struct path *path, int joint, const struct strand *s
     }
 }
 
-static bool strand_find_pin(const struct posing *posing, const struct pin_query *query, pin_pull *c,
-                            struct pin_point *point)
+bool strand_find_pin(const struct posing *posing, const struct pin_query *query, pin_pull *c, struct pin_point *point)
 {
     const struct document *document = posing->document;
     const double sample = document_sample(document, query->pin->frame) + query->later;
@@ -540,7 +528,7 @@ static bool strand_find_pin(const struct posing *posing, const struct pin_query 
     return true;
 }
 
-static void strand_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
+void strand_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
     const wiggly_value values[RIG_MAX_INPUTS] = {{0}};
     struct strand strand;
@@ -557,8 +545,3 @@ static void strand_weigh(const struct posing *posing, int rig, const int *spline
         }
     }
 }
-
-static const struct pinning_functions strand_pinning = {strand_find_pin, strand_weigh};
-
-const struct posing_functions tail_posing = {tail_rig_pose, tail_rig_bounds, &strand_pinning};
-const struct posing_functions chain_posing = {chain_rig_pose, NULL, &strand_pinning};

@@ -14,7 +14,6 @@
 
 #define EDIT_KIND(kind) (1u << (kind))
 #define EDIT_BENT (EDIT_KIND(RIG_TAIL) | EDIT_KIND(RIG_CHAIN)) ///< kinds that have channels
-#define EDIT_PINNED (EDIT_BENT | EDIT_KIND(RIG_MODEL))         ///< kinds that take pins
 #define EDIT_ANY_KIND (EDIT_KIND(RIG_KINDS) - 1)
 
 /// Ends an edit of a document, of which `before` is a copy; `good` says whether it went well so far. If not, or if a file could not have its
@@ -805,7 +804,7 @@ static bool check_pin(const struct document *document, const struct rig *rig, st
 /// The rig that has the pin; NULL and an error if there is none.
 static const struct rig *find_pinned(const struct document *document, int rig, unsigned id, struct error *error)
 {
-    const struct rig *found = find_rig(document, rig, EDIT_PINNED, error);
+    const struct rig *found = find_rig(document, rig, EDIT_ANY_KIND, error);
     if (!found || pins_find_id(found, id) >= 0) return found;
     fail(error, ERROR_INPUT, "%s: this pin no longer exists", rig_title(found));
     return NULL;
@@ -813,7 +812,7 @@ static const struct rig *find_pinned(const struct document *document, int rig, u
 
 bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error)
 {
-    const struct rig *old = find_rig(document, rig, EDIT_PINNED, error);
+    const struct rig *old = find_rig(document, rig, EDIT_ANY_KIND, error);
     struct pin added = *pin;
     if (!old || !check_pin(document, old, &added, error)) return false;
     if (pins_count(document) >= SCENE_MAX_PINS)

@@ -290,7 +290,7 @@ size_t fields_bytes(const struct field *fields, const void *at, const void *othe
 /// The row of a key, or NULL.
 const struct field *fields_find(const struct field *fields, const char *key);
 
-/// The rows of a rig; and those of its pins, or NULL.
+/// The rows of a rig; and those of its pins.
 const struct field *rig_fields(const struct rig *rig);
 const struct field *rig_pin_fields(const struct rig *rig);
 

@@ -1,4 +1,4 @@
-/// A rig: something that splines move. Each kind is a row in every layer: how it is read, written and copied (rigs.c here), posed
+/// A rig: something that splines move. Each kind has its part in every layer: how it is read, written and copied (rigs.c here), posed
 /// (rig/posing.c), put on the stage (editor/stage/stage.c), drawn (draw/stage.c) and edited (editor/inspector/inspector.c).
 #ifndef SCENE_RIG_H
 #define SCENE_RIG_H
@@ -231,7 +231,7 @@ bool rig_is_moved(const struct rig *rig, int spline);
 /// Its channels and how many; NULL and 0 if its kind has none.
 struct channel *rig_channels(const struct rig *rig, int *count);
 
-/// The file's word for a point that can be pinned, "vertex" or "joint"; NULL: such a rig has no pins.
+/// The file's word for a point that can be pinned, "vertex" or "joint".
 const char *rig_pin_key(const struct rig *rig);
 
 /// A rig of a kind with the file format's defaults, without a name or an id. It has one holder.

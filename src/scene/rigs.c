@@ -275,14 +275,6 @@ static void paint_print(struct members *members, const struct document *document
 
 // --- the kinds, row by row
 
-/// The data of each kind of rig: its members in the file.
-struct rig_functions {
-    const char *word;           ///< in the file
-    const struct field *fields; ///< in the order of the file
-    size_t title;               ///< place of the text that names it if it has no name
-    const struct field *pins;   ///< the rows of a pin; NULL: it takes none
-};
-
 _Static_assert(offsetof(struct tail, channels) == 0 && offsetof(struct chain, channels) == 0,
                "rig.bent is their beginning");
 
@@ -402,9 +394,6 @@ static const struct field tail_fields[] = {
     FIELD_END(struct rig),
 };
 
-static const struct rig_functions tail_functions = {
-    .word = "tail", .fields = tail_fields, .title = offsetof(struct rig, name), .pins = joint_pins};
-
 // --- characters, and chains on them
 
 static const struct field drive_fields[] = {
@@ -440,9 +429,6 @@ static const struct field model_fields[] = {
     FIELD_END(struct rig),
 };
 
-static const struct rig_functions model_functions = {
-    .word = "model", .fields = model_fields, .title = offsetof(struct rig, model.model), .pins = vertex_pins};
-
 static const struct field chain_fields[] = {
     RIG_FIRST(false),
     {FIELD("model", FIELD_MODEL, struct rig, chain.model), .is_required = true,
@@ -457,36 +443,33 @@ static const struct field chain_fields[] = {
     FIELD_END(struct rig),
 };
 
-static const struct rig_functions chain_functions = {.word = "chain",
-                                                     .fields = chain_fields,
-                                                     .title = offsetof(struct rig, chain.from),
-                                                     .pins = joint_pins};
-
 // --- all kinds
 
-#define RIG_ROW(constant, name) [constant] = &name##_functions,
-static const struct rig_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(RIG_ROW)};
-#undef RIG_ROW
+static const struct {
+    const char *word;           ///< in the file
+    const struct field *fields; ///< in the order of the file
+    size_t title;               ///< place of the text that names it if it has no name
+} kinds[RIG_KINDS] = {
+    [RIG_TAIL] = {"tail", tail_fields, offsetof(struct rig, name)},
+    [RIG_MODEL] = {"model", model_fields, offsetof(struct rig, model.model)},
+    [RIG_CHAIN] = {"chain", chain_fields, offsetof(struct rig, chain.from)},
+};
 
-const char *rig_word(enum rig_kind kind) { return kinds[kind]->word; }
+const char *rig_word(enum rig_kind kind) { return kinds[kind].word; }
 
 const char *rig_title(const struct rig *rig)
 {
-    const struct rig_functions *kind = kinds[rig->kind];
-    const char *title = *(char *const *)((const char *)rig + kind->title);
+    const char *title = *(char *const *)((const char *)rig + kinds[rig->kind].title);
     if (rig->name && rig->name[0]) return rig->name;
-    return title && title[0] ? title : kind->word;
+    return title && title[0] ? title : rig_word(rig->kind);
 }
 
-const struct field *rig_fields(const struct rig *rig) { return kinds[rig->kind]->fields; }
+const struct field *rig_fields(const struct rig *rig) { return kinds[rig->kind].fields; }
 
 /// Whether channels bend it; if not, it has drives.
 static bool is_bent(const struct rig *rig) { return rig->kind != RIG_MODEL; }
 
-int rig_input_count(const struct rig *rig)
-{
-    return is_bent(rig) ? rig->bent.channel_count : rig->model.drive_count;
-}
+int rig_input_count(const struct rig *rig) { return is_bent(rig) ? rig->bent.channel_count : rig->model.drive_count; }
 
 int rig_input(const struct rig *rig, int input)
 {
@@ -529,20 +512,19 @@ struct channel *rig_channels(const struct rig *rig, int *count)
     return is_bent(rig) ? rig->bent.channels : NULL;
 }
 
-const struct field *rig_pin_fields(const struct rig *rig) { return kinds[rig->kind]->pins; }
-
-const char *rig_pin_key(const struct rig *rig)
+const struct field *rig_pin_fields(const struct rig *rig)
 {
-    const struct field *pins = rig_pin_fields(rig);
-    return pins ? pins[1].key : NULL;
+    return rig->kind == RIG_MODEL ? vertex_pins : joint_pins;
 }
+
+const char *rig_pin_key(const struct rig *rig) { return rig_pin_fields(rig)[1].key; }
 
 struct rig *rig_create(enum rig_kind kind)
 {
     struct rig *rig = need_zeroed(1, sizeof *rig);
     atomic_init(&rig->holders, 1);
     rig->kind = kind;
-    fields_reset(kinds[kind]->fields, rig);
+    fields_reset(kinds[kind].fields, rig);
     return rig;
 }
 
@@ -551,7 +533,7 @@ struct rig *rig_clone(const struct rig *rig)
     struct rig *copy = need(1, sizeof *copy);
     *copy = *rig;
     atomic_init(&copy->holders, 1);
-    fields_copy(kinds[rig->kind]->fields, copy);
+    fields_copy(rig_fields(rig), copy);
     return copy;
 }
 
@@ -564,7 +546,7 @@ struct rig *rig_hold(struct rig *rig)
 void rig_drop(struct rig *rig)
 {
     if (!rig || atomic_fetch_sub(&rig->holders, 1) > 1) return;
-    fields_free(kinds[rig->kind]->fields, rig);
+    fields_free(rig_fields(rig), rig);
     free(rig);
 }
 
@@ -572,18 +554,18 @@ bool rig_check(const struct document *document, struct rig *rig, struct error *e
 {
     const int joints = rig->kind == RIG_TAIL ? rig->tail.joints : JOINTS_UNKNOWN;
     struct error why;
-    return fields_check(document, joints, kinds[rig->kind]->fields, rig, &why) ||
+    return fields_check(document, joints, rig_fields(rig), rig, &why) ||
            fail(error, ERROR_INPUT, "%s: %s", rig_title(rig), why.text);
 }
 
 bool rig_equals(const struct rig *a, const struct rig *b)
 {
-    return a == b || (a->kind == b->kind && fields_equal(kinds[a->kind]->fields, a, b));
+    return a == b || (a->kind == b->kind && fields_equal(rig_fields(a), a, b));
 }
 
 size_t rig_bytes(const struct rig *rig, const struct rig *other)
 {
-    return sizeof *rig + fields_bytes(kinds[rig->kind]->fields, rig, other);
+    return sizeof *rig + fields_bytes(rig_fields(rig), rig, other);
 }
 
 void load_rigs(struct reader *reader, const struct value *scene)
@@ -592,7 +574,7 @@ void load_rigs(struct reader *reader, const struct value *scene)
     int count = reader_objects(reader, rigs, SCENE_MAX_RIGS);
     struct document *document = reader->document;
     const char *words[RIG_KINDS + 1] = {NULL};
-    for (int k = 0; k < RIG_KINDS; k++) words[k] = kinds[k]->word;
+    for (int k = 0; k < RIG_KINDS; k++) words[k] = kinds[k].word;
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&rigs, i);
         const struct value type = reader_member(&object, "type");
@@ -614,7 +596,7 @@ void load_rigs(struct reader *reader, const struct value *scene)
         reader->places[document->rig_count] = i;
         document_add_rig(document, rig);
         reader->rig = rig;
-        if (kind >= 0) object_load(reader, &object, kinds[kind]->fields, rig);
+        if (kind >= 0) object_load(reader, &object, kinds[kind].fields, rig);
         for (int other = 0; other + 1 < document->rig_count && rig->name; other++) {
             const struct where name_at = {.parent = &object.at, .key = "name"};
             const char *name = document->rigs[other]->name;
@@ -644,7 +626,7 @@ void print_rigs(struct text *text, const struct document *document, const char *
         const struct rig *rig = document->rigs[r];
         struct members members = {text, "    {\n      ", ",\n      ", false};
         text_string(text, before);
-        fields_print(&members, document, kinds[rig->kind]->fields, rig, folder);
+        fields_print(&members, document, rig_fields(rig), rig, folder);
         text_string(text, "\n    }");
     }
     const json_t *meadows = json_object_get(document->extra, "rigs");

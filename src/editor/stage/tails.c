@@ -13,8 +13,8 @@
 #include "editor/core/core.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"
+#include "maths/symmetric.h"
 #include "model/vector.h"
-#include "spline/symmetric.h"
 #include "ui/theme.h"
 #include <assert.h>
 #include <limits.h>
