@@ -273,7 +273,7 @@ static int do_part(struct world *world, const struct words *w, struct error *err
     if (is(w, "channel"))
         return edit_channel_add(d, w->rig, spline_called(d, w->word[2]), (enum axis)axis_called(w->word[3]),
                                 (enum channel_part)word_among(w->word[4], parts), error);
-    if (is(w, "unchannel")) return edit_channel_remove(d, at, error);
+    if (is(w, "unchannel")) return edit_channel(d, at, NULL, error);
     if (is(w, "drive")) {
         const struct rig *rig = is_there && d->rigs[w->rig]->kind == RIG_MODEL ? d->rigs[w->rig] : NULL;
         struct drive drive = {.name = w->word[6]};
@@ -281,7 +281,7 @@ static int do_part(struct world *world, const struct words *w, struct error *err
         drive.spline = spline_called(d, w->word[3]), drive.amplitude = w->number[4], drive.lag = w->number[5];
         return edit_drive(d, w->rig, NUMBER(2), &drive, error);
     }
-    if (is(w, "undrive")) return edit_drive_remove(d, w->rig, NUMBER(2), error);
+    if (is(w, "undrive")) return edit_drive(d, w->rig, NUMBER(2), NULL, error);
     const int first = is(w, "pin") ? 2 : 3;
     struct pin pin = {.frame = w->number[first], .point = NUMBER(first + 1), .id = 9999};
     for (int k = 0; k < 3; k++) pin.to[k] = w->number[first + 2 + k];

@@ -99,41 +99,31 @@ static bool check_knots_fit(const struct document *document, struct error *error
     return true;
 }
 
-struct timing {
-    double fps;
-    int substeps, first, last;
-};
-
-static struct timing timing_of(const struct document *document)
+/// Whether a document's timing is allowed, knots not considered.
+static bool check_timing(const struct document *document, struct error *error)
 {
-    return (struct timing){document->fps, document->substeps, document->first_frame, document->last_frame};
-}
-
-/// Whether a timing is allowed, knots not considered.
-static bool check_timing(const struct document *document, const struct timing *timing, struct error *error)
-{
-    long long frames = (long long)timing->last - timing->first;
-    long long samples = frames * timing->substeps + 1;
-    if (!(timing->fps > 0 && timing->fps <= SCENE_MAX_FPS)) {
+    const long long frames = (long long)document->last_frame - document->first_frame;
+    if (!(document->fps > 0 && document->fps <= SCENE_MAX_FPS)) {
         return fail(error, ERROR_INPUT, "frames per second must be above 0 and at most %d", SCENE_MAX_FPS);
     }
-    if (timing->substeps < 1 || timing->substeps > SCENE_MAX_SUBSTEPS) {
+    if (document->substeps < 1 || document->substeps > SCENE_MAX_SUBSTEPS) {
         return fail(error, ERROR_INPUT, "substeps must be from 1 to %d", SCENE_MAX_SUBSTEPS);
     }
     if (frames < 0) return fail(error, ERROR_INPUT, "the last frame must not be before the first");
-    if (timing->first < -SCENE_MAX_FRAME || timing->last > SCENE_MAX_FRAME) {
+    if (document->first_frame < -SCENE_MAX_FRAME || document->last_frame > SCENE_MAX_FRAME) {
         return fail(error, ERROR_INPUT, "frames must be from -%d to %d", SCENE_MAX_FRAME, SCENE_MAX_FRAME);
     }
-    return document_check_samples(document->spline_count, document_count_limited(document), samples, error);
+    return document_check_samples(document->spline_count, document_count_limited(document),
+                                  frames * document->substeps + 1, error);
 }
 
-static void set_timing(struct document *document, const struct timing *timing)
+/// Makes a document what a shallow copy of it with another timing is. Returns a copy from before.
+static struct document *set_timing(struct document *document, const struct document *wanted)
 {
-    document->fps = timing->fps;
-    document->substeps = timing->substeps;
-    document->first_frame = timing->first;
-    document->last_frame = timing->last;
+    struct document *before = document_copy(document);
+    *document = *wanted;
     document_touch(document);
+    return before;
 }
 
 /// The scaled end of the range, rounded outwards so that knots inside stay inside.
@@ -146,17 +136,17 @@ static int scaled_end(int frame, double factor, bool first)
 
 bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct error *error)
 {
-    struct timing timing = timing_of(document);
+    struct document wanted = *document;
     const double factor = fps / document->fps;
-    timing.fps = fps;
-    if (!check_timing(document, &timing, error)) return false;
+    wanted.fps = fps;
+    if (!check_timing(&wanted, error)) return false;
     if (fps == document->fps) return true;
     if (keeps_seconds) {
-        timing.first = scaled_end(document->first_frame, factor, true);
-        timing.last = scaled_end(document->last_frame, factor, false);
-        if (!check_timing(document, &timing, error)) return false;
+        wanted.first_frame = scaled_end(document->first_frame, factor, true);
+        wanted.last_frame = scaled_end(document->last_frame, factor, false);
+        if (!check_timing(&wanted, error)) return false;
     }
-    struct document *before = document_copy(document);
+    struct document *before = set_timing(document, &wanted);
     for (int s = 0; keeps_seconds && s < document->spline_count; s++) {
         struct spline *spline = document_own_spline(document, s);
         for (int k = 0; k < spline->knot_count; k++) spline->knots[k].frame = spline->knots[k].frame * factor + 0.0;
@@ -166,18 +156,16 @@ bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct 
         rig->offset *= factor;
         for (int i = 0; i < rig->pin_count; i++) rig->pins[i].frame = rig->pins[i].frame * factor + 0.0;
     }
-    set_timing(document, &timing);
     return end_edit(document, before, check_loops(document, error) && check_knots_fit(document, error), error);
 }
 
 bool edit_substeps(struct document *document, int substeps, struct error *error)
 {
-    struct timing timing = timing_of(document);
-    timing.substeps = substeps;
-    if (!check_timing(document, &timing, error)) return false;
+    struct document wanted = *document;
+    wanted.substeps = substeps;
+    if (!check_timing(&wanted, error)) return false;
     if (substeps == document->substeps) return true;
-    struct document *before = document_copy(document);
-    set_timing(document, &timing);
+    struct document *before = set_timing(document, &wanted);
     return end_edit(document, before, check_knots_fit(document, error), error);
 }
 
@@ -195,13 +183,12 @@ bool edit_background(struct document *document, const struct background_file *wa
 
 bool edit_range(struct document *document, int first, int last, enum range_fit fit, struct error *error)
 {
-    struct timing timing = timing_of(document);
-    timing.first = first;
-    timing.last = last;
-    if (!check_timing(document, &timing, error)) return false;
+    struct document wanted = *document;
+    wanted.first_frame = first;
+    wanted.last_frame = last;
+    if (!check_timing(&wanted, error)) return false;
     if (first == document->first_frame && last == document->last_frame) return true;
-    struct document *before = document_copy(document);
-    set_timing(document, &timing);
+    struct document *before = set_timing(document, &wanted);
 
     bool good = check_loops(document, error);
     if (good && fit == RANGE_REFUSE) good = check_knots_fit(document, error);
@@ -314,6 +301,13 @@ static bool add_spline(struct document *document, int at, struct spline *spline,
     return true;
 }
 
+static void set_text(char **text, const char *value)
+{
+    char *copy = value[0] ? need_text(value) : NULL; // first: need_text() may save the document when memory runs out
+    free(*text);
+    *text = copy;
+}
+
 bool edit_spline_add(struct document *document, int at, const char *name, const struct knot *first,
                      struct error *error)
 {
@@ -381,11 +375,8 @@ bool edit_spline_name(struct document *document, int spline, const char *name, s
 {
     if (!document_has_spline(document, spline, error) || !check_spline_name(document, name, spline, error))
         return false;
-    if (strcmp(document->splines[spline]->name, name) == 0) return true;
-    struct spline *own = document_own_spline(document, spline);
-    char *copy = need_text(name);
-    free(own->name);
-    own->name = copy;
+    if (strcmp(document->splines[spline]->name, name) != 0)
+        set_text(&document_own_spline(document, spline)->name, name);
     return true;
 }
 
@@ -401,11 +392,7 @@ bool edit_spline_folder(struct document *document, int spline, const char *folde
 {
     if (!document_has_spline(document, spline, error)) return false;
     const char *before = document->splines[spline]->folder;
-    if (strcmp(before ? before : "", folder) == 0) return true;
-    struct spline *own = document_own_spline(document, spline);
-    char *copy = folder[0] ? need_text(folder) : NULL;
-    free(own->folder);
-    own->folder = copy;
+    if (strcmp(before ? before : "", folder) != 0) set_text(&document_own_spline(document, spline)->folder, folder);
     return true;
 }
 
@@ -692,13 +679,6 @@ char *edit_rig_free_name(const struct document *document, const char *wanted)
     return name;
 }
 
-static void set_text(char **text, const char *value)
-{
-    char *copy = value ? need_text(value) : NULL; // first: need_text() may save the document when memory runs out
-    free(*text);
-    *text = copy;
-}
-
 /// What refers to a rig by its old name, or by its old file, refers to the new one.
 static void refer(struct document *document, int rig, const char *old, bool by_file, const char *now)
 {
@@ -848,13 +828,12 @@ bool edit_pin_set(struct document *document, int rig, const struct pin *pin, str
 
 // --- channels, drives and paint
 
-/// The channel at a place; NULL and an error if there is none.
-static const struct channel *find_channel(const struct document *document, struct channel_place at,
-                                          struct error *error)
+/// A clone of the rig that has that channel; NULL and an error if there is none.
+static struct rig *clone_bent(const struct document *document, struct channel_place at, struct error *error)
 {
     const struct rig *rig = find_rig(document, at.rig, EDIT_BENT, error);
     if (!rig) return NULL;
-    if (at.channel >= 0 && at.channel < rig->bent.channel_count) return &rig->bent.channels[at.channel];
+    if (at.channel >= 0 && at.channel < rig->bent.channel_count) return rig_clone(rig);
     fail(error, ERROR_INPUT, "there is no such channel");
     return NULL;
 }
@@ -862,24 +841,32 @@ static const struct channel *find_channel(const struct document *document, struc
 bool edit_angles(struct document *document, struct channel_place at, enum angle_kind kind,
                  const struct angles *angles, struct error *error)
 {
-    const struct rig *rig = find_rig(document, at.rig, EDIT_BENT, error);
-    if (!rig) return false;
-    if (kind == ANGLE_REST && rig->kind != RIG_TAIL)
-        return fail(error, ERROR_INPUT, "only a tail has angles at rest");
-    if (kind != ANGLE_REST && !find_channel(document, at, error)) return false;
-    struct rig *changed = rig_clone(rig);
-    if (kind == ANGLE_REST) changed->tail.rest = *angles;
-    if (kind == ANGLE_LAG) changed->bent.channels[at.channel].lag = *angles;
-    if (kind == ANGLE_GAIN) changed->bent.channels[at.channel].gain = *angles;
+    if (kind == ANGLE_REST) {
+        const struct rig *rig = find_rig(document, at.rig, EDIT_BENT, error);
+        if (!rig) return false;
+        if (rig->kind != RIG_TAIL) return fail(error, ERROR_INPUT, "only a tail has angles at rest");
+        struct rig wanted = *rig;
+        wanted.tail.rest = *angles;
+        return edit_rig_set(document, at.rig, &wanted, error);
+    }
+    struct rig *changed = clone_bent(document, at, error);
+    if (!changed) return false;
+    struct channel *channel = &changed->bent.channels[at.channel];
+    *(kind == ANGLE_LAG ? &channel->lag : &channel->gain) = *angles;
     return replace_rig(document, at.rig, changed, error);
 }
 
 bool edit_channel(struct document *document, struct channel_place at, const struct channel *channel,
                   struct error *error)
 {
-    if (!find_channel(document, at, error)) return false;
-    struct rig *changed = rig_clone(document->rigs[at.rig]);
-    changed->bent.channels[at.channel] = *channel;
+    struct rig *changed = clone_bent(document, at, error);
+    if (!changed) return false;
+    struct channel *own = &changed->bent.channels[at.channel];
+    if (channel) {
+        *own = *channel;
+    } else {
+        memmove(own, own + 1, (size_t)(--changed->bent.channel_count - at.channel) * sizeof *own);
+    }
     return replace_rig(document, at.rig, changed, error);
 }
 
@@ -905,60 +892,33 @@ bool edit_channel_add(struct document *document, int rig, int spline, enum axis 
     return replace_rig(document, rig, changed, error);
 }
 
-bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error)
-{
-    if (!find_channel(document, at, error)) return false;
-    struct rig *changed = rig_clone(document->rigs[at.rig]);
-    struct channel *gone = &changed->bent.channels[at.channel];
-    memmove(gone, gone + 1, (size_t)(--changed->bent.channel_count - at.channel) * sizeof *gone);
-    return replace_rig(document, at.rig, changed, error);
-}
-
 static const struct model_rig *find_character(const struct document *document, int rig, struct error *error)
 {
     const struct rig *found = find_rig(document, rig, EDIT_KIND(RIG_MODEL), error);
     return found ? &found->model : NULL;
 }
 
-static bool put_drives(struct document *document, int rig, struct drive *drives, int count, struct error *error)
-{
-    struct rig wanted = *document->rigs[rig];
-    wanted.model.drives = drives;
-    wanted.model.drive_count = count;
-    return edit_rig_set(document, rig, &wanted, error);
-}
-
-/// Copies a character's drives into `drives`. Returns how many there are; −1 and an error if it is no character.
-static int take_drives(const struct document *document, int rig, struct drive drives[MODEL_MAX_DRIVES + 1],
-                       struct error *error)
-{
-    const struct model_rig *character = find_character(document, rig, error);
-    if (!character) return -1;
-    for (int i = 0; i < character->drive_count; i++) drives[i] = character->drives[i];
-    return character->drive_count;
-}
-
 bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error)
 {
     struct drive drives[MODEL_MAX_DRIVES + 1];
-    const int count = take_drives(document, rig, drives, error);
-    if (count < 0) return false;
-    if (index < -1 || index >= count) return fail(error, ERROR_INPUT, "this character has no such coordinate");
-    struct drive *own = &drives[index < 0 ? count : index];
-    char *const name = index < 0 ? drive->name : own->name; // the coordinate keeps its name
-    *own = *drive;
-    own->name = name;
-    return put_drives(document, rig, drives, count + (index < 0), error);
-}
-
-bool edit_drive_remove(struct document *document, int rig, int index, struct error *error)
-{
-    struct drive drives[MODEL_MAX_DRIVES + 1];
-    const int count = take_drives(document, rig, drives, error);
-    if (count < 0) return false;
-    if (index < 0 || index >= count) return fail(error, ERROR_INPUT, "this character has no such coordinate");
-    memmove(&drives[index], &drives[index + 1], (size_t)(count - 1 - index) * sizeof *drives);
-    return put_drives(document, rig, drives, count - 1, error);
+    const struct model_rig *character = find_character(document, rig, error);
+    if (!character) return false;
+    int count = character->drive_count;
+    if (index < (drive ? -1 : 0) || index >= count)
+        return fail(error, ERROR_INPUT, "this character has no such coordinate");
+    struct rig wanted = *document->rigs[rig];
+    for (int i = 0; i < count; i++) drives[i] = character->drives[i];
+    if (drive) {
+        struct drive *own = &drives[index < 0 ? count++ : index];
+        char *const name = index < 0 ? drive->name : own->name; // the coordinate keeps its name
+        *own = *drive;
+        own->name = name;
+    } else {
+        memmove(&drives[index], &drives[index + 1], (size_t)(--count - index) * sizeof *drives);
+    }
+    wanted.model.drives = drives;
+    wanted.model.drive_count = count;
+    return edit_rig_set(document, rig, &wanted, error);
 }
 
 bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error)

@@ -78,22 +78,20 @@ struct channel_place {
 };
 bool edit_angles(struct document *document, struct channel_place at, enum angle_kind kind,
                  const struct angles *angles, struct error *error);
-/// Replaces a channel.
+/// Replaces a channel; NULL removes it.
 bool edit_channel(struct document *document, struct channel_place at, const struct channel *channel,
                   struct error *error);
 /// Appends a channel.
 bool edit_channel_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
                       struct error *error);
-bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error);
 
 /// The tail keeps its shape.
 bool edit_joints(struct document *document, int rig, int count, struct error *error);
 /// A copy of the rig goes beside it; if it is no tail, a plain one bent to the side by `spline` (-1: by nothing).
 bool edit_tail_add(struct document *document, int rig, int spline, struct error *error);
 
-/// Replaces the drive of a character's coordinate, except its name; index -1 appends one.
+/// Replaces the drive of a character's coordinate, except its name; index -1 appends one. NULL removes it.
 bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error);
-bool edit_drive_remove(struct document *document, int rig, int index, struct error *error);
 
 /// Replaces a character's paint by plain paint, for its model's coordinates and vertices.
 bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error);

@@ -129,7 +129,7 @@ WORLD_TEST(channels_of_a_chain_are_edited_as_those_of_a_tail, world_open_scene(w
     assert_int_equal(document_find_spline(world->document, "s"),
                      world->document->rigs[TAIL]->chain.channels[1].spline);
     assert_reversible(world, edit_bend(world, TAIL, 1, 0, -1, -1));
-    assert_reversible(world, EDIT(edit_channel_remove, (struct channel_place){TAIL, 0}));
+    assert_reversible(world, EDIT(edit_channel, (struct channel_place){TAIL, 0}, NULL));
     assert_int_equal(world->document->rigs[TAIL]->chain.channel_count, 1);
     assert_refused(world, EDIT(edit_angles, (struct channel_place){TAIL, 0}, ANGLE_REST, &ramp),
                    "only a tail has angles at rest");
@@ -262,7 +262,7 @@ static bool random_edit(struct world *world)
     case 5:
         return edit_rig_name(document, r, text[0], error);
     case 6:
-        return edit_channel_remove(document, at, error);
+        return edit_channel(document, at, NULL, error);
     case 7:
         return edit_channel_add(document, r, spline, channel.axis, PART_TOTAL, error);
     case 8:

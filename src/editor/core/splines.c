@@ -80,8 +80,8 @@ static bool release(struct core *core, const struct reference *reference)
         return core_set_parameter(core, owner, (enum parameter)which,
                                   spline_list_present(core, owner, (enum parameter)which));
     if (reference->kind == REFERENCE_CHANNEL)
-        return edit_channel_remove(document, (struct channel_place){owner, which}, &core->step.error);
-    if (reference->kind == REFERENCE_DRIVE) return edit_drive_remove(document, owner, which, &core->step.error);
+        return edit_channel(document, (struct channel_place){owner, which}, NULL, &core->step.error);
+    if (reference->kind == REFERENCE_DRIVE) return edit_drive(document, owner, which, NULL, &core->step.error);
     struct rig changed = *document->rigs[owner]; // its position
     changed.tail.position[which] = param_number(now.y + now.re);
     return edit_rig_set(document, owner, &changed, &core->step.error);

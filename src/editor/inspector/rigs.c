@@ -392,7 +392,7 @@ static void build_channel(struct inspector *in)
     const int pressed = inspector_buttons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
     if (pressed == 0 && edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error))
         in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
-    if (pressed == 1) edit_channel_remove(in->core->document, (struct channel_place){rig, in->channel}, error);
+    if (pressed == 1) edit_channel(in->core->document, (struct channel_place){rig, in->channel}, NULL, error);
 
     const struct channel *channel = chosen_channel(in);
     if (!channel) return;
@@ -690,7 +690,7 @@ static void build_soft(struct inspector *in)
         ui_hint(&in->ui, r, "A channel of this character, and the spline that drives it");
         if (ui_list_row(&in->ui, r, name, text, color, k == view->drive)) choose_drive(in, k);
         removed = inspector_icon(in, button, &remover);
-        if (removed) edit_drive_remove(in->core->document, characters_rig(in->core), k, &in->core->step.error);
+        if (removed) edit_drive(in->core->document, characters_rig(in->core), k, NULL, &in->core->step.error);
     }
     if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0)
         inspector_dropdown(in, &add_list, ui_row(&in->ui, UI_ROW), 0, "Add a channel", 0);
