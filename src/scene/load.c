@@ -537,8 +537,7 @@ static void print_spline(struct text *text, const struct document *document, con
         const struct parameter_row *row = &parameter_rows[p];
         const bool is_usual = !param_follows(param) && value == row->standard;
         if (row->kind == PARAMETER_LIMIT || p == PARAMETER_VARIATION || p == PARAMETER_SEED) continue;
-        if (is_usual && row->print != PRINT_ALWAYS && !(row->print == PRINT_USED && spline_uses(spline, p, false)))
-            continue;
+        if (is_usual && (row->is_quiet || !spline_uses(spline, p, false))) continue;
         if (row->kind == PARAMETER_CHOICE) {
             member_string(&members, name, row->words[(int)value]);
             continue;

@@ -77,13 +77,6 @@ enum parameter_kind {
     PARAMETER_WHOLE,  ///< a whole number: an int
 };
 
-/// When a file contains a parameter with its default value. Other values are always written.
-enum parameter_print {
-    PRINT_USED,    ///< if the mode uses it
-    PRINT_ALWAYS,  ///< even if the mode does not use it
-    PRINT_CHANGED, ///< never
-};
-
 enum {
     IN_COMPLEX = 1 << WIGGLY_COMPLEX,
     IN_REAL = 1 << WIGGLY_REAL,
@@ -104,12 +97,10 @@ struct parameter_row {
     double minimum, maximum; ///< of a constant
     double complex_maximum;  ///< in complex mode, if different, else 0
     double usual;            ///< end of its slider (a frequency's is at most half the sample rate); 0: no slider
-    bool is_frequency;
-    double standard; ///< if a file does not contain it
-    enum parameter_print print;
-    double fresh; ///< of a new spline
-    double step;  ///< of arrow keys, in `unit`
-    int decimals;
+    double standard;         ///< if a file does not contain it
+    bool is_quiet;           ///< with that value a file contains it never; else if the mode uses it
+    double fresh;            ///< of a new spline
+    double step;             ///< of arrow keys, in `unit`; below 1 two decimals are shown
     const char *words[PARAMETER_MAX_WORDS + 1]; ///< of a choice, in the file
     const char *labels[PARAMETER_MAX_WORDS];    ///< on screen
 };

@@ -352,7 +352,7 @@ double core_slider_end(const struct document *document, const struct spline *spl
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     double most = fmin(row->usual, parameter_maximum(parameter, spline_mode(spline)));
-    return row->is_frequency ? fmin(most, document->fps * document->substeps / 2) : most;
+    return parameter == PARAMETER_FREQUENCY ? fmin(most, document->fps * document->substeps / 2) : most;
 }
 
 double core_fresh_limit(const struct spline *spline, enum parameter parameter)

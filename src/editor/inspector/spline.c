@@ -189,7 +189,7 @@ static void build_number(struct inspector *in, int which, struct rect r)
     const struct parameter_row *row = &parameter_rows[which == SETTLE ? PARAMETER_DAMPING : which];
     struct number_row number = {.undo = row->undo,
                                 .ui = {NAMED(row->name, row->name), .unit = row->unit, .hint = row->hint,
-                                       .fallback = row->fresh, .step = row->step, .decimals = row->decimals}};
+                                       .fallback = row->fresh, .step = row->step, .decimals = row->step < 1 ? 2 : 0}};
     if (which == SETTLE) {
         number = settle;
         number.ui.lowest = ceil(settles(spline, 1, document_step(in->core->document)) * 100) / 100;
