@@ -22,8 +22,7 @@ static bool end_edit(struct document *document, struct document *before, bool go
 {
     struct pin_trouble trouble;
     good = good && document_check_joints(document, error);
-    if (good && pins_hold_any(document) &&
-        !(pins_check(document, &trouble) && pins_check_order(document, &trouble))) {
+    if (good && !pins_check(document, &trouble)) {
         const struct rig *rig = document->rigs[trouble.rig];
         good = fail(error, ERROR_INPUT, "%s: %s: %s", rig_title(rig), trouble.pin >= 0 ? "pins" : trouble.member,
                     trouble.error.text);

@@ -348,7 +348,7 @@ static void validate_scene(struct reader *reader, const struct where *scene_at)
     }
 
     struct pin_trouble trouble;
-    if (reader->errors > 0 || (pins_check(document, &trouble) && pins_check_order(document, &trouble))) return;
+    if (reader->errors > 0 || pins_check(document, &trouble)) return;
     const struct rig *rig = document->rigs[trouble.rig];
     size_t index = 0; // of the pin in the file: ids rise there, while rig->pins is in order of frames
     for (int i = 0; trouble.pin >= 0 && i < rig->pin_count; i++) index += rig->pins[i].id < rig->pins[trouble.pin].id;

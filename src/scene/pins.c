@@ -80,58 +80,12 @@ int pins_last_sample(const struct document *document, const struct rig *rig)
 
 static const char *member_that_holds(const struct rig *rig) { return rig->pin_count > 0 ? "pins" : "floor"; }
 
-bool pins_check(const struct document *document, struct pin_trouble *trouble)
-{
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
-        for (int i = 0; i < rig->pin_count; i++) {
-            const struct pin *pin = &rig->pins[i];
-            const int sample = document_sample(document, pin->frame);
-            *trouble = (struct pin_trouble){.rig = r, .pin = i, .member = rig_pin_key(rig)};
-            if (rig->kind == RIG_TAIL && pin->point >= rig->tail.joints)
-                return fail(&trouble->error, ERROR_INPUT, "expected a whole number from 0 to %d, got %d",
-                            rig->tail.joints - 1, pin->point);
-            trouble->member = "frame";
-            if (!document_has_frame(document, pin->frame, pins_last_sample(document, rig), &trouble->error))
-                return false;
-            for (int k = i - 1; k >= 0 && document_sample(document, rig->pins[k].frame) == sample; k--) {
-                if (rig->pins[k].point == pin->point)
-                    return fail(&trouble->error, ERROR_INPUT,
-                                "expected one pin per point and sample, got another at frame %.10g", pin->frame);
-            }
-        }
-
-        // A character standing below its floor would need its feet lifted, which no spline does.
-        if (rig_has_floor(rig) && rig->model.floor > rig->model.position[1]) {
-            *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = "floor"};
-            return fail(&trouble->error, ERROR_INPUT,
-                        "expected a height of at most %.10g, which is what the character stands on, got %.10g",
-                        rig->model.position[1], rig->model.floor);
-        }
-
-        *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};
-        for (int i = 0; is_held(rig) && i < rig_input_count(rig); i++) {
-            if (rig_point_input(rig, i) < 0) continue;
-            const struct spline *spline = document->splines[rig_input(rig, i)];
-            const struct param *pull = &spline->parameter[PARAMETER_FREQUENCY];
-            const struct param *calm = &spline->parameter[PARAMETER_CALM];
-            const char *why = NULL;
-            if (calm->track < 0 && calm->value == 0) why = "whose calm is 0";
-            if (pull->track < 0 && pull->value == 0) why = "whose frequency is 0";
-            if (spline_mode(spline) == WIGGLY_CUBIC) why = "which is cubic";
-            if (why)
-                return fail(&trouble->error, ERROR_INPUT,
-                            "expected splines with a swing of their own, got \"%s\", %s", spline->name, why);
-        }
-    }
-    return true;
-}
-
-bool pins_check_order(const struct document *document, struct pin_trouble *trouble)
+/// Whether no spline of a pinned rig follows another that is solved together with it, and whether all together take no more than
+/// SCENE_MAX_PINNED.
+static bool check_order(const struct document *document, struct pin_trouble *trouble)
 {
     struct order_cycle tracks;
     struct pin_cycle cycle;
-    if (!pins_hold_any(document)) return true;
     const size_t count = (size_t)document->spline_count;
     int *group = need(4 * count, sizeof *group), *tracked = group + count, *order = tracked + count;
     unsigned char *next = need(count, 1);
@@ -176,6 +130,53 @@ bool pins_check_order(const struct document *document, struct pin_trouble *troub
     free(next);
     free(placed);
     return good;
+}
+
+bool pins_check(const struct document *document, struct pin_trouble *trouble)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        for (int i = 0; i < rig->pin_count; i++) {
+            const struct pin *pin = &rig->pins[i];
+            const int sample = document_sample(document, pin->frame);
+            *trouble = (struct pin_trouble){.rig = r, .pin = i, .member = rig_pin_key(rig)};
+            if (rig->kind == RIG_TAIL && pin->point >= rig->tail.joints)
+                return fail(&trouble->error, ERROR_INPUT, "expected a whole number from 0 to %d, got %d",
+                            rig->tail.joints - 1, pin->point);
+            trouble->member = "frame";
+            if (!document_has_frame(document, pin->frame, pins_last_sample(document, rig), &trouble->error))
+                return false;
+            for (int k = i - 1; k >= 0 && document_sample(document, rig->pins[k].frame) == sample; k--) {
+                if (rig->pins[k].point == pin->point)
+                    return fail(&trouble->error, ERROR_INPUT,
+                                "expected one pin per point and sample, got another at frame %.10g", pin->frame);
+            }
+        }
+
+        // A character standing below its floor would need its feet lifted, which no spline does.
+        if (rig_has_floor(rig) && rig->model.floor > rig->model.position[1]) {
+            *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = "floor"};
+            return fail(&trouble->error, ERROR_INPUT,
+                        "expected a height of at most %.10g, which is what the character stands on, got %.10g",
+                        rig->model.position[1], rig->model.floor);
+        }
+
+        *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};
+        for (int i = 0; is_held(rig) && i < rig_input_count(rig); i++) {
+            if (rig_point_input(rig, i) < 0) continue;
+            const struct spline *spline = document->splines[rig_input(rig, i)];
+            const struct param *pull = &spline->parameter[PARAMETER_FREQUENCY];
+            const struct param *calm = &spline->parameter[PARAMETER_CALM];
+            const char *why = NULL;
+            if (calm->track < 0 && calm->value == 0) why = "whose calm is 0";
+            if (pull->track < 0 && pull->value == 0) why = "whose frequency is 0";
+            if (spline_mode(spline) == WIGGLY_CUBIC) why = "which is cubic";
+            if (why)
+                return fail(&trouble->error, ERROR_INPUT,
+                            "expected splines with a swing of their own, got \"%s\", %s", spline->name, why);
+        }
+    }
+    return !pins_hold_any(document) || check_order(document, trouble);
 }
 
 void pin_groups_find(const struct document *document, int *group)

@@ -31,12 +31,9 @@ struct pin_trouble {
     struct error error;
 };
 
-/// Whether all pins are inside the frames, alone on their samples, and on splines that can move.
+/// Whether all pins are inside the frames, alone on their samples, and on splines that can move; no spline of a pinned rig follows another that
+/// is solved together with it; and all together take no more than SCENE_MAX_PINNED. Allocates if there are pins.
 bool pins_check(const struct document *document, struct pin_trouble *trouble);
-
-/// Whether no spline of a pinned rig follows another that is solved together with it, and whether all together take no more than
-/// SCENE_MAX_PINNED. Allocates.
-bool pins_check_order(const struct document *document, struct pin_trouble *trouble);
 
 /// Writes the first spline of its group for each spline; -1: no pin moves it.
 void pin_groups_find(const struct document *document, int *group);
