@@ -328,43 +328,6 @@ double chain_bend_a_metre(const struct imported *imported, const struct chain_bo
     return DEGREES * 2 / (length * (bones->count + 1));
 }
 
-/// Properties shared by all splines of a new chain.
-struct plan {
-    struct document *document;
-    char *model; ///< its name, else its file
-    bool by_file;
-    char *chain, *from, *to; ///< the names of the chain, its first bone and its last
-    double frequency, damping;
-    bool loops;
-};
-
-static bool plan_set(const struct plan *plan, int spline, enum parameter parameter, struct param param,
-                     struct error *error)
-{
-    return edit_parameter(plan->document, spline, parameter, &param, error);
-}
-
-/// Appends a spline for one axis.
-static bool add_axis(const struct plan *plan, const char *axis, struct error *error)
-{
-    char *name;
-    const int spline = plan->document->spline_count;
-    if (asprintf(&name, "%s %s", plan->chain, axis) < 0) need_failed();
-    const bool added = add_spline(plan->document, name, NULL, plan->frequency, plan->damping, error);
-    free(name);
-    return added &&
-           plan_set(plan, spline, PARAMETER_START, param_number(plan->loops ? WIGGLY_LOOP : WIGGLY_REST), error);
-}
-
-/// Makes a spline's equilibrium follow the stiff chain's tip through the clip.
-static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, struct error *error)
-{
-    struct joint_motion motion = {
-        .model = plan->model, .by_file = plan->by_file, .joint = plan->to, .of = of, .gain = 1, .chain = plan->chain};
-    const struct param equilibrium = {.track = -1, .motion = &motion};
-    return plan_set(plan, spline, PARAMETER_EQUILIBRIUM, equilibrium, error);
-}
-
 static double three_digits(double number)
 {
     const double unit = 100 / maths_power_of_ten(maths_decade(number));
@@ -433,17 +396,10 @@ bool chain_make(struct document *document, const struct models *models, const st
     char *name = edit_rig_free_name(document, stem);
     free(stem);
 
-    const struct plan plan = {.document = document,
-
-                              .model = model->name ? model->name : model->model.model,
-                              .by_file = !model->name,
-                              .chain = name,
-                              .from = gltf->nodes[bones.node[0]].name,
-                              .to = gltf->nodes[bones.node[bones.count - 1]].name,
-                              .frequency = wish->frequency > 0 ? wish->frequency : round(10 * frequency) / 10,
-                              .damping = wish->damping > 0 ? wish->damping : USUAL_DAMPING,
-                              .loops = document_loops(document) || posing_clip_loops(document, &play)};
-    struct chain chain = {.model = plan.model, .by_file = plan.by_file, .from = plan.from, .to = plan.to};
+    struct chain chain = {.model = model->name ? model->name : model->model.model,
+                          .by_file = !model->name,
+                          .from = gltf->nodes[bones.node[0]].name,
+                          .to = gltf->nodes[bones.node[bones.count - 1]].name};
     const struct chain *twin = NULL;
     for (int r = -1; has_side && !wish->own && !twin && (r = document_next_chain(document, wish->model, r)) >= 0;) {
         if (strcmp(document->rigs[r]->chain.from, other) == 0) twin = &document->rigs[r]->chain;
@@ -452,6 +408,10 @@ bool chain_make(struct document *document, const struct models *models, const st
         wish->follows ? chain_bend_a_metre(imported, &bones, model->model.scale) : WHOLE_BEND / bones.count;
     struct channel channels[2];
     const int first = document->spline_count;
+    const double hertz = wish->frequency > 0 ? wish->frequency : round(10 * frequency) / 10;
+    const double ratio = wish->damping > 0 ? wish->damping : USUAL_DAMPING;
+    const bool loops = document_loops(document) || posing_clip_loops(document, &play);
+    const struct param start = param_number(loops ? WIGGLY_LOOP : WIGGLY_REST);
     bool done = true;
     if (twin) {
         chain.turn = -twin->turn;
@@ -459,7 +419,12 @@ bool chain_make(struct document *document, const struct models *models, const st
         chain.channels = twin->channels;
         chain.channel_count = twin->channel_count;
     } else {
-        for (int c = 0; c < 2; c++) {
+        for (int c = 0; c < 2; c++) { // each bent by a spline of its own
+            char *spline;
+            if (asprintf(&spline, "%s %s", name, c == 0 ? "side" : "up") < 0) need_failed();
+            done = done && add_spline(document, spline, NULL, hertz, ratio, error) &&
+                   edit_parameter(document, first + c, PARAMETER_START, &start, error);
+            free(spline);
             channels[c] = (struct channel){.spline = first + c,
                                            .axis = c == 0 ? AXIS_SIDE : AXIS_UP,
                                            .of = wish->follows ? PART_DISPLACEMENT : PART_TOTAL,
@@ -468,14 +433,22 @@ bool chain_make(struct document *document, const struct models *models, const st
         }
         chain.channels = channels;
         chain.channel_count = 2;
-        done = add_axis(&plan, "side", error) && add_axis(&plan, "up", error);
     }
-    const struct rig contents = {.kind = RIG_CHAIN, .name = plan.chain, .chain = chain};
+    const struct rig contents = {.kind = RIG_CHAIN, .name = name, .chain = chain};
     *rig = document->rig_count;
     done = done && edit_rig_add(document, &contents, error);
-    if (done && !twin && wish->follows)
-        done = follow_tip(&plan, first, MOTION_ACROSS, error) && follow_tip(&plan, first + 1, MOTION_UP, error) &&
-               (clip < 0 || set_strength(document, models, *rig, bones.count, error));
+    const bool follows = wish->follows && !twin;
+    for (int c = 0; done && follows && c < 2; c++) { // the stiff chain's tip through the clip
+        struct joint_motion motion = {.model = chain.model,
+                                      .by_file = chain.by_file,
+                                      .joint = chain.to,
+                                      .of = c == 0 ? MOTION_ACROSS : MOTION_UP,
+                                      .gain = 1,
+                                      .chain = name};
+        const struct param equilibrium = {.track = -1, .motion = &motion};
+        done = edit_parameter(document, first + c, PARAMETER_EQUILIBRIUM, &equilibrium, error);
+    }
+    if (done && follows && clip >= 0) done = set_strength(document, models, *rig, bones.count, error);
     free(name);
     return done;
 }
