@@ -39,14 +39,6 @@ void pose_character(const struct model_rig *rig, const struct figure *figure, co
     }
 }
 
-/// A e^{−j·lag}
-static void drive_turn(const struct drive *drive, double turn[2])
-{
-    const double lag = radians(drive->lag);
-    turn[0] = drive->amplitude * maths_cos(lag);
-    turn[1] = -drive->amplitude * maths_sin(lag);
-}
-
 /// z of a coordinate by the clip and all drives.
 static void find_sum(const struct model_rig *rig, const struct figure *figure, const struct morph *clip,
                      const wiggly_value *values, int coordinate, double z[2])
@@ -69,11 +61,13 @@ static void find_pull(const struct model_rig *rig, const struct figure *figure, 
                       const wiggly_value *values, int vertex, int spline, pin_pull c)
 {
     for (int d = 0; d < rig->drive_count; d++) {
-        const int number = rig->drives[d].spline == spline ? figure_find(figure, rig->drives[d].name) : -1;
-        double turn[2], z[2] = {0}, weights[COORDINATE_PARTS], by[2][COORDINATE_PARTS];
+        const struct drive *drive = &rig->drives[d];
+        const int number = drive->spline == spline ? figure_find(figure, drive->name) : -1;
+        const double lag = radians(drive->lag); // A e^{−j·lag}
+        const double turn[2] = {drive->amplitude * maths_cos(lag), -drive->amplitude * maths_sin(lag)};
+        double z[2] = {0}, weights[COORDINATE_PARTS], by[2][COORDINATE_PARTS];
         if (number < 0) continue;
         const struct coordinate *coordinate = &figure->character.coordinates[number];
-        drive_turn(&rig->drives[d], turn);
         if (values) find_sum(rig, figure, clip, values, number, z);
         coordinate_weights(coordinate, z, weights, by);
         for (int k = 0; k < 3; k++) {

@@ -89,19 +89,6 @@ int rig_body(const struct document *document, int rig)
     return of->kind == RIG_CHAIN ? document_find_model(document, of->chain.model, of->chain.by_file) : rig;
 }
 
-/// False if the model lacks the chain's bones.
-static bool strand_of_chain(const struct chain *chain, const struct imported *imported, struct strand *strand)
-{
-    *strand = (struct strand){.channels = chain->channels,
-                              .channel_count = chain->channel_count,
-                              .mirror = chain->mirror,
-                              .imported = imported};
-    if (!chain_find(&imported->gltf, chain->from, chain->to, &strand->bones, NULL)) return false;
-    strand->joints = strand->bones.count;
-    strand->axes = chain_axes_at_rest(imported, chain, &strand->bones);
-    return true;
-}
-
 bool strand_find(const struct posing *posing, int body, int rig, struct strand *strand)
 {
     const struct document *document = posing->document;
@@ -117,7 +104,15 @@ bool strand_find(const struct posing *posing, int body, int rig, struct strand *
     }
     if (document->rigs[rig]->kind != RIG_CHAIN || body < 0) return false;
     const struct imported *imported = models_imported(posing->models, document, body);
-    return imported && strand_of_chain(&document->rigs[rig]->chain, imported, strand);
+    const struct chain *chain = &document->rigs[rig]->chain;
+    *strand = (struct strand){.channels = chain->channels,
+                              .channel_count = chain->channel_count,
+                              .mirror = chain->mirror,
+                              .imported = imported};
+    if (!imported || !chain_find(&imported->gltf, chain->from, chain->to, &strand->bones, NULL)) return false;
+    strand->joints = strand->bones.count;
+    strand->axes = chain_axes_at_rest(imported, chain, &strand->bones);
+    return true;
 }
 
 /// The axes of a joint in its own frame at rest, by enum axis.
