@@ -116,8 +116,8 @@ static bool tail_open(const struct posing *posing, int rig, const struct rig_pos
     return true;
 }
 
-const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, tail_open, pose_key, tail_columns};
-const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = tail_columns};
+static const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, tail_open, pose_key, tail_columns};
+static const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = tail_columns};
 
 // --- a soft character without bones: its mesh, and the morph targets of each coordinate, as in its own file (model/character.h)
 
@@ -410,9 +410,8 @@ void form_vertices(const struct form *form, const struct rig_pose *pose, bool as
 
 // --- all kinds
 
-#define FORM_ROW(constant, name) [constant] = &name##_form,
-static const struct form_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(FORM_ROW)};
-#undef FORM_ROW
+static const struct form_kind *const kinds[RIG_KINDS] = {
+    [RIG_TAIL] = &tail_form, [RIG_MODEL] = &model_form, [RIG_CHAIN] = &chain_form};
 
 const struct form_kind *form_kind(const struct posing *posing, int rig)
 {

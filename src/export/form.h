@@ -148,13 +148,8 @@ struct form_kind {
                     form_column *column, void *user);
 };
 
-/// tail_form …
-#define FORM_KIND(constant, name) extern const struct form_kind name##_form;
-RIG_KIND_LIST(FORM_KIND)
-#undef FORM_KIND
-
-/// The joints of a character, for formats that have only joints.
-extern const struct form_kind skeleton_form;
+/// A character; and its joints, for formats that have only joints.
+extern const struct form_kind model_form, skeleton_form;
 
 /// A rig's form functions: of its kind, or of a soft character that stands as it is in its file.
 const struct form_kind *form_kind(const struct posing *posing, int rig);
