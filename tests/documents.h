@@ -44,7 +44,7 @@ static inline struct model_rig *first_model(const struct document *document)
 static inline char *text_of_document(const struct document *document)
 {
     size_t size;
-    char *text = scene_print(document, &size);
+    char *text = scene_print(document, document->folder, NULL, &size);
     assert_non_null(text);
     assert_int_equal(strlen(text), size);
     return text;

@@ -491,7 +491,7 @@ static bool do_request(struct app *app, const struct request *request, struct er
         return take_picture(app, error);
     case REQUEST_SHARE: {
         size_t size;
-        char *scene = scene_print(app->work.document, &size);
+        char *scene = scene_print(app->work.document, app->work.document->folder, NULL, &size);
         platform_share(app->platform, scene);
         free(scene);
         return true;

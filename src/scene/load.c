@@ -552,8 +552,8 @@ static void print_spline(struct text *text, const struct document *document, con
 
 static bool is_rigs(const char *key) { return strcmp(key, "rigs") == 0; }
 
-char *scene_print_for(const struct document *document, const char *folder, const struct scene_origin *origin,
-                      size_t *size)
+char *scene_print(const struct document *document, const char *folder, const struct scene_origin *origin,
+                  size_t *size)
 {
     struct text text = {0};
     struct members members = {&text, "{\n  ", ",\n  ", false};
@@ -600,11 +600,6 @@ char *scene_print_for(const struct document *document, const char *folder, const
     return text.data;
 }
 
-char *scene_print(const struct document *document, size_t *size)
-{
-    return scene_print_for(document, document->folder, NULL, size);
-}
-
 bool scene_save_for(const struct document *document, const char *path, const struct scene_origin *origin,
                     struct error *error)
 {
@@ -612,7 +607,7 @@ bool scene_save_for(const struct document *document, const char *path, const str
     char folder[PATH_LIMIT];
     size_t size;
     if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
-    char *text = scene_print_for(document, folder, origin, &size);
+    char *text = scene_print(document, folder, origin, &size);
     const bool opened = file_output_open(&output, path, error);
     if (opened && origin) fchmod(fileno(output.stream), 0600); // readable by this user alone
     if (opened) fwrite(text, 1, size, output.stream);
@@ -629,7 +624,7 @@ uint64_t scene_hash(const struct document *document)
 {
     uint64_t hash = 0xcbf29ce484222325u; // FNV-1a's offset basis
     size_t size;
-    char *text = scene_print(document, &size);
+    char *text = scene_print(document, document->folder, NULL, &size);
     for (size_t i = 0; i < size; i++) hash = (hash ^ (unsigned char)text[i]) * 0x100000001b3u;
     free(text);
     return hash;

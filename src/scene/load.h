@@ -17,10 +17,6 @@ struct document *scene_parse(const char *name, const char *text, size_t size, st
 /// Whether its file has a meadow, which older versions showed. Only saving knows of it.
 bool scene_has_meadow(const struct document *document);
 
-/// The canonical text: known keys in their fixed order, then unknown ones in theirs; knots by sample; numbers as the shortest text that
-/// reads back equal. scene_parse() of it gives an equal document. The caller frees it.
-char *scene_print(const struct document *document, size_t *size);
-
 /// The scene that a recovery file belongs to, its last member:
 ///
 ///     "recovers": { "file": "/home/me/walk.json", "content": "5f3a91c07be2d846" }
@@ -34,9 +30,11 @@ struct scene_origin {
 /// Reads that member of a file; all zeros if there is none.
 struct scene_origin scene_read_origin(const char *path);
 
-/// scene_print() for a file in `folder` (document.h), with its `origin` unless that is NULL.
-char *scene_print_for(const struct document *document, const char *folder, const struct scene_origin *origin,
-                      size_t *size);
+/// The canonical text: known keys in their fixed order, then unknown ones in theirs; knots by sample; numbers as the shortest text that
+/// reads back equal. scene_parse() of it gives an equal document. For a file in `folder` (document.h), with its `origin` unless that is NULL.
+/// The caller frees it.
+char *scene_print(const struct document *document, const char *folder, const struct scene_origin *origin,
+                  size_t *size);
 
 /// Writes the canonical text into a file, whole or not at all; paths in it are relative to the file's folder.
 bool scene_save(const struct document *document, const char *path, struct error *error);

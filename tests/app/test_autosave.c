@@ -318,7 +318,7 @@ static void copy(struct large *l)
 static char *text_of(struct large *l)
 {
     size_t size;
-    char *text = scene_print_for(document_of(l), folder, NULL, &size);
+    char *text = scene_print(document_of(l), folder, NULL, &size);
     text[size - strlen("\n}\n")] = '\0';
     return text;
 }

@@ -590,7 +590,7 @@ static void assert_undone(struct monkey *m, struct origin *origin)
 static char *printed_anywhere(const struct document *document)
 {
     size_t size;
-    return scene_print_for(document, "/", NULL, &size);
+    return scene_print(document, "/", NULL, &size);
 }
 
 /// As when the display is lost: the work is in a recovery file, and that gives the document.

@@ -383,7 +383,7 @@ struct session {
 static char *text_of(const struct document *document)
 {
     size_t size;
-    return scene_print_for(document, "/", NULL, &size);
+    return scene_print(document, "/", NULL, &size);
 }
 
 /// A short session at a desk: start, edits, playing, undo, opening a figure, copying. `seen` (NULL: nobody) is handed the document after each frame.

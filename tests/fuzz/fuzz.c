@@ -107,7 +107,7 @@ static char *save_scene(const char *data, size_t size, size_t *saved_size, struc
 {
     struct problems problems = {.report = ignore};
     struct document *document = scene_parse("fuzz.json", data, size, &problems, error);
-    char *text = document ? scene_print(document, saved_size) : NULL;
+    char *text = document ? scene_print(document, document->folder, NULL, saved_size) : NULL;
     document_destroy(document);
     return text;
 }

@@ -101,7 +101,7 @@ TEST(paths_lead_to_the_same_models_from_another_folder)
     struct document *document = document_of_text(whole);
     document->folder = strdup("/films");
     size_t size;
-    char *text = scene_print_for(document, "/films/new", NULL, &size);
+    char *text = scene_print(document, "/films/new", NULL, &size);
     struct document *moved = document_of_text(text);
     assert_string_equal(moved->rigs[WALK]->model.model, "../walk.glb");
     assert_string_equal(moved->rigs[CAT]->model.model, "../models/cat.glb");

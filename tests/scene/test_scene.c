@@ -367,7 +367,7 @@ TEST(paths_may_have_any_bytes)
         if (i % 2 == 1) free(added->name), added->name = NULL;
         assert_done(edit_rig_add(document, &chain, &error));
         size_t size;
-        char *text = scene_print(document, &size);
+        char *text = scene_print(document, document->folder, NULL, &size);
         assert_done(back = scene_parse("text", text, size, NULL, &error));
         assert_string_equal(back->rigs[0]->model.model, paths[i / 2]);
         assert_string_equal(back->rigs[1]->chain.model, chain.chain.model);
