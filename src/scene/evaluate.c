@@ -411,11 +411,12 @@ static bool find_point(const struct pinned *pinned, int rig, const struct pin *p
     return source->find(source->context, pinned->evaluation, pinned->document, &query, c, point);
 }
 
-/// Solves the group with or without its pins, and publishes the curves for finding points.
-static wiggly_status solve_round(struct pinned *pinned, bool with_pins)
+/// Solves the group with so many pins and bounds, and publishes the curves for finding points.
+static wiggly_status solve_round(struct pinned *pinned, int pins, int bounds)
 {
-    const wiggly_status status = wiggly_group_solve(pinned->solver, pinned->descs, pinned->weights, pinned->curves,
-                                                    pinned->count, pinned->pins, with_pins ? pinned->held_count : 0);
+    const wiggly_status status =
+        wiggly_group_solve_bounded(pinned->solver, pinned->descs, pinned->weights, pinned->curves, pinned->count,
+                                   pinned->pins, pins, pinned->floors.bounds, bounds);
     for (int i = 0; i < pinned->count; i++) {
         const int s = pinned->members[i];
         if (status < WIGGLY_ERROR_ARGUMENT)
@@ -590,7 +591,7 @@ static wiggly_status approach(struct pinned *pinned)
             if (pinned->held[h].is_found)
                 pin_aim(&pinned->held[h], &pinned->pins[h], &pinned->pulls[h * pinned->count]);
         }
-        status = solve_round(pinned, true);
+        status = solve_round(pinned, pinned->held_count, 0);
         if (status >= WIGGLY_ERROR_ARGUMENT || n + 1 == most) break;
 
         bool there = true;
@@ -767,10 +768,7 @@ static wiggly_status floors_solve(struct pinned *pinned, wiggly_status status)
             }
         }
         if (!any) break;
-        status =
-            wiggly_group_solve_bounded(pinned->solver, pinned->descs, pinned->weights, pinned->curves, pinned->count,
-                                       pinned->pins, pinned->held_count, floors->bounds, floors->count);
-        for (int i = 0; i < pinned->count; i++) pinned->evaluation->curves[pinned->members[i]] = pinned->curves[i];
+        status = solve_round(pinned, pinned->held_count, floors->count);
         floors->in_hand = -1;
     }
     return status;
@@ -817,7 +815,7 @@ static bool pinned_solve(struct pinned *pinned, wiggly_status *status)
             pinned->held[pinned->held_count++] = (struct held_pin){.rig = r, .pin = &rig->pins[i]};
     }
 
-    *status = solve_round(pinned, false);
+    *status = solve_round(pinned, 0, 0);
     if (*status >= WIGGLY_ERROR_ARGUMENT) return false;
     find_pulls(pinned, true);
     if (pinned->held_count > 0) *status = approach(pinned);
@@ -905,14 +903,21 @@ void evaluation_free(struct evaluation *evaluation)
     *evaluation = (struct evaluation){0};
 }
 
-static void count_solved(struct evaluation *evaluation, const struct document *document, int spline,
-                         wiggly_status status)
+/// Keeps a reference to the solved spline, so that its address is not reused.
+static void mark_solved(struct evaluation *evaluation, const struct document *document, int spline,
+                        wiggly_status status)
 {
+    struct spline_state *state = &evaluation->storage->state[spline];
+    struct spline *old = state->held;
+    state->held = spline_hold(document->splines[spline]);
+    spline_drop(old);
+    state->solved = true;
+    state->baked.is_new = state->forced = false;
     evaluation->status[spline] = status;
     evaluation->revision++;
     evaluation->solved_splines++;
     evaluation->solved_samples += evaluation->samples;
-    evaluation->solved_knots += document->splines[spline]->knot_count;
+    evaluation->solved_knots += state->held->knot_count;
 }
 
 static void solve_alone(struct evaluation *evaluation, const struct document *document, int spline, bool cubic)
@@ -928,7 +933,7 @@ static void solve_alone(struct evaluation *evaluation, const struct document *do
         flatten(curve, &desc);
     else
         take_base(document->splines[spline], &desc, curve);
-    count_solved(evaluation, document, spline, status);
+    mark_solved(evaluation, document, spline, status);
 }
 
 /// Whether a spline is out of date: it has changed since it was solved, or a spline that it follows was solved.
@@ -943,17 +948,6 @@ static bool is_due(struct evaluation *evaluation, const struct document *documen
         due = track >= 0 && storage->state[track].solved && spline_uses(of, p, evaluation->cubic);
     }
     return due;
-}
-
-/// Keeps a reference to the solved spline, so that its address is not reused.
-static void mark_solved(struct storage *storage, const struct document *document, int spline)
-{
-    struct spline_state *state = &storage->state[spline];
-    struct spline *old = state->held;
-    state->held = spline_hold(document->splines[spline]);
-    spline_drop(old);
-    state->solved = true;
-    state->baked.is_new = state->forced = false;
 }
 
 wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
@@ -1056,10 +1050,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     for (int i = 0; i < evaluation->count; i++) storage->state[i].solved = false;
     for (int i = 0; i < evaluation->count;) {
         if (!grouped || pinned->which[order[i]] < 0) {
-            if (is_due(evaluation, document, order[i])) {
-                mark_solved(storage, document, order[i]);
-                solve_alone(evaluation, document, order[i], cubic);
-            }
+            if (is_due(evaluation, document, order[i])) solve_alone(evaluation, document, order[i], cubic);
             if (grouped) pinned->placed[order[i]] = true;
             i++;
             continue;
@@ -1080,8 +1071,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
         const bool together = due && pinned_solve(pinned, &status);
         for (; i < end; i++) {
             pinned->placed[order[i]] = true;
-            if (due) mark_solved(storage, document, order[i]);
-            if (together) count_solved(evaluation, document, order[i], status);
+            if (together) mark_solved(evaluation, document, order[i], status);
             if (due && !together) solve_alone(evaluation, document, order[i], false);
         }
     }
