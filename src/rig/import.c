@@ -135,7 +135,6 @@ static bool hang_flesh(struct document *document, int rig, const struct imported
         drives[changed.model.drive_count++] =
             (struct drive){.name = coordinate->name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
         struct joint_motion motion = {.model = changed.name ? changed.name : changed.model.model,
-                                      .by_file = !changed.name,
                                       .joint = coordinate->bone,
                                       .of = MOTION_BASE,
                                       .gain = 1};
@@ -397,7 +396,6 @@ bool chain_make(struct document *document, const struct models *models, const st
     free(stem);
 
     struct chain chain = {.model = model->name ? model->name : model->model.model,
-                          .by_file = !model->name,
                           .from = gltf->nodes[bones.node[0]].name,
                           .to = gltf->nodes[bones.node[bones.count - 1]].name};
     const struct chain *twin = NULL;
@@ -440,7 +438,6 @@ bool chain_make(struct document *document, const struct models *models, const st
     const bool follows = wish->follows && !twin;
     for (int c = 0; done && follows && c < 2; c++) { // the stiff chain's tip through the clip
         struct joint_motion motion = {.model = chain.model,
-                                      .by_file = chain.by_file,
                                       .joint = chain.to,
                                       .of = c == 0 ? MOTION_ACROSS : MOTION_UP,
                                       .gain = 1,

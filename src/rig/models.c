@@ -475,7 +475,7 @@ bool models_update(struct models *models, const struct document *document, struc
     for (int r = -1; good && (r = document_next_rig(document, RIG_CHAIN, r)) >= 0;) {
         const struct chain *chain = &document->rigs[r]->chain;
         const struct imported *imported =
-            models_imported(models, document, document_find_model(document, chain->model, chain->by_file));
+            models_imported(models, document, document_find_model(document, chain->model));
         struct chain_bones bones;
         struct error trouble = {0};
         if (!imported) continue;

@@ -236,7 +236,7 @@ bool clip_follow(const void *context, const struct document *document, const str
                  const char *coordinate, double *samples)
 {
     const struct models *models = context;
-    const int rig = document_find_model(document, motion->model, motion->by_file);
+    const int rig = document_find_model(document, motion->model);
     const struct imported *imported = models_imported(models, document, rig);
     if (!imported) return false;
     const struct model_rig *model = &document->rigs[rig]->model;

@@ -86,7 +86,7 @@ struct chain_axes chain_axes_at_rest(const struct imported *imported, const stru
 int rig_body(const struct document *document, int rig)
 {
     const struct rig *of = document->rigs[rig];
-    return of->kind == RIG_CHAIN ? document_find_model(document, of->chain.model, of->chain.by_file) : rig;
+    return of->kind == RIG_CHAIN ? document_find_model(document, of->chain.model) : rig;
 }
 
 bool strand_find(const struct posing *posing, int body, int rig, struct strand *strand)

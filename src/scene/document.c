@@ -394,20 +394,22 @@ struct tail *document_tail(const struct document *document, int n)
     return found >= 0 ? &document->rigs[found]->tail : NULL;
 }
 
-int document_find_model(const struct document *document, const char *text, bool by_file)
+int document_find_model(const struct document *document, const char *text)
 {
-    for (int rig = -1; (rig = document_next_rig(document, RIG_MODEL, rig)) >= 0;) {
-        const char *own = by_file ? document->rigs[rig]->model.model : document->rigs[rig]->name;
-        if (own && strcmp(own, text) == 0) return rig;
+    int by_file = -1;
+    for (int r = -1; (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
+        const struct rig *rig = document->rigs[r];
+        if (rig->name && strcmp(rig->name, text) == 0) return r;
+        if (by_file < 0 && rig->model.model && strcmp(rig->model.model, text) == 0) by_file = r;
     }
-    return -1;
+    return by_file;
 }
 
 int document_next_chain(const struct document *document, int model, int before)
 {
     for (int r = before; (r = document_next_rig(document, RIG_CHAIN, r)) >= 0;) {
         const struct chain *chain = &document->rigs[r]->chain;
-        if (document_find_model(document, chain->model, chain->by_file) == model) return r;
+        if (document_find_model(document, chain->model) == model) return r;
     }
     return -1;
 }
@@ -416,8 +418,7 @@ bool document_follows(const struct document *document, int spline, int rig)
 {
     const struct joint_motion *motion = document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM].motion;
     if (!motion) return false;
-    if (document->rigs[rig]->kind == RIG_MODEL)
-        return document_find_model(document, motion->model, motion->by_file) == rig;
+    if (document->rigs[rig]->kind == RIG_MODEL) return document_find_model(document, motion->model) == rig;
     return motion->chain && document_find_chain(document, motion->chain) == rig;
 }
 

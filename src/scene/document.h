@@ -212,8 +212,9 @@ int document_rig_number(const struct document *document, int rig);
 /// The n-th tail, or NULL.
 struct tail *document_tail(const struct document *document, int n);
 
-/// Index of the first model rig with that name, or with that file; -1 if there is none.
-int document_find_model(const struct document *document, const char *text, bool by_file);
+/// Index of the model rig with that name, else of the first with that file; -1 if there is none. No edit gives a rig the name of a file by which
+/// something refers to a model.
+int document_find_model(const struct document *document, const char *text);
 
 /// As document_next_rig(), of the chains on a model.
 int document_next_chain(const struct document *document, int model, int before);

@@ -667,11 +667,11 @@ char *edit_rig_free_name(const struct document *document, const char *wanted)
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
         take_name(&names, rig->name);
-        if (rig->kind == RIG_CHAIN && rig->chain.by_file) take_name(&names, rig->chain.model);
+        if (rig->kind == RIG_CHAIN) take_name(&names, rig->chain.model);
     }
     for (int s = 0; s < document->spline_count; s++) {
         const struct joint_motion *motion = motion_of_spline(document, s);
-        if (motion && motion->by_file) take_name(&names, motion->model);
+        if (motion) take_name(&names, motion->model);
     }
     char *name = need_text(names_add(&names, wanted));
     names_free(&names);
@@ -679,19 +679,21 @@ char *edit_rig_free_name(const struct document *document, const char *wanted)
 }
 
 /// What refers to a rig by its old name, or by its old file, refers to the new one.
-static void refer(struct document *document, int rig, const char *old, bool by_file, const char *now)
+static void refer(struct document *document, int rig, const char *old, const char *now)
 {
+    const bool is_model = document->rigs[rig]->kind == RIG_MODEL;
     for (int s = 0; s < document->spline_count; s++) {
         if (!document_follows(document, s, rig)) continue;
         struct param *param = &document_own_spline(document, s)->parameter[PARAMETER_EQUILIBRIUM];
         struct joint_motion *motion = motion_create(param->motion);
-        if (motion->by_file == by_file && strcmp(motion->model, old) == 0) set_text(&motion->model, now);
-        if (!by_file && motion->chain && strcmp(motion->chain, old) == 0) set_text(&motion->chain, now);
+        char **own = is_model ? &motion->model : &motion->chain;
+        if (strcmp(*own, old) == 0) set_text(own, now);
         motion_drop(param->motion);
         param->motion = motion;
     }
     for (int r = -1; (r = document_next_chain(document, rig, r)) >= 0;) {
-        if (document->rigs[r]->chain.by_file == by_file) set_text(&document_own_rig(document, r)->chain.model, now);
+        if (strcmp(document->rigs[r]->chain.model, old) != 0) continue;
+        set_text(&document_own_rig(document, r)->chain.model, now);
     }
 }
 
@@ -705,26 +707,24 @@ bool edit_rig_name(struct document *document, int rig, const char *name, struct 
         if (r != rig && other && strcmp(other, name) == 0)
             return fail(error, ERROR_INPUT, "there is a rig called %s already", name);
     }
+    const char *const before = document->rigs[rig]->name;
+    if (before && strcmp(before, name) == 0) return true;
 
     // A rig with that name would take the place of a file by which a chain or a spline refers to a model.
     bool is_file = false;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *chain = document->rigs[r];
-        is_file |= chain->kind == RIG_CHAIN && chain->chain.by_file && strcmp(chain->chain.model, name) == 0;
+        is_file |= chain->kind == RIG_CHAIN && strcmp(chain->chain.model, name) == 0;
     }
     for (int s = 0; s < document->spline_count; s++) {
         const struct joint_motion *motion = motion_of_spline(document, s);
-        is_file |= motion && motion->by_file && strcmp(motion->model, name) == 0;
+        is_file |= motion && strcmp(motion->model, name) == 0;
     }
     if (kind == RIG_MODEL && is_file)
         return fail(error, ERROR_INPUT, "expected a name that is no model's file, got %s", name);
-    char *const old = document->rigs[rig]->name ? need_text(document->rigs[rig]->name) : NULL;
-    if (old && strcmp(old, name) == 0) {
-        free(old);
-        return true;
-    }
+    char *const old = before ? need_text(before) : NULL;
 
-    if (old) refer(document, rig, old, false, name);
+    if (old) refer(document, rig, old, name);
     set_text(&document_own_rig(document, rig)->name, name);
     free(old);
     return true;
@@ -734,7 +734,7 @@ bool edit_model_file(struct document *document, int rig, const char *file, struc
 {
     if (!find_rig(document, rig, EDIT_KIND(RIG_MODEL), error)) return false;
     char *const old = need_text(document->rigs[rig]->model.model);
-    refer(document, rig, old, true, file);
+    refer(document, rig, old, file);
     set_text(&document_own_rig(document, rig)->model.model, file);
     free(old);
     return true;

@@ -978,7 +978,7 @@ static void motions_bake(struct evaluation *evaluation, const struct document *d
         // A hash of everything that the samples depend on; never 0.
         const struct joint_motion *motion = param->motion;
         const struct model_source *source = &evaluation->models;
-        const int model = document_find_model(document, motion->model, motion->by_file);
+        const int model = document_find_model(document, motion->model);
         const int chain = motion->chain ? document_find_chain(document, motion->chain) : -1;
         uint64_t key = hash_text(HASH_START, motion->joint);
         key = hash_word(hash_number(key, document->fps), (uint64_t)document->substeps);

@@ -193,6 +193,14 @@ static bool is_left_out(const struct field *field, const void *object)
     return (field->kind == FIELD_NUMBER ? *(const double *)at : *(const int *)at) == field->usual[0];
 }
 
+/// Whether a model is called by its name; else by its file.
+static bool is_name(const struct document *document, const char *model)
+{
+    const int rig = document_find_model(document, model);
+    const char *name = rig >= 0 ? document->rigs[rig]->name : NULL;
+    return name && strcmp(name, model) == 0;
+}
+
 void fields_print(struct members *members, const struct document *document, const struct field *fields,
                   const void *object, const char *folder)
 {
@@ -231,8 +239,8 @@ void fields_print(struct members *members, const struct document *document, cons
             member_path(members, field->key, document, *(char *const *)at, folder);
             break;
         case FIELD_MODEL:
-            member_path(members, field->key, *(const bool *)look(object, field->flag) ? document : NULL,
-                        *(char *const *)at, folder);
+            member_path(members, field->key, is_name(document, text_of(field, object)) ? NULL : document,
+                        text_of(field, object), folder);
             break;
         case FIELD_SPLINE:
             member_string(members, field->key, document->splines[*(const int *)at]->name);
@@ -273,11 +281,9 @@ static bool fail_range(const struct field *field, struct error *error)
     return fail(error, ERROR_INPUT, "the %s must be finite", field->key);
 }
 
-bool model_find(const struct document *document, const char *text, bool *by_file, struct error *error)
+bool has_model(const struct document *document, const char *text, struct error *error)
 {
-    if (!text) text = "";
-    *by_file = document_find_model(document, text, false) < 0;
-    return !*by_file || document_find_model(document, text, true) >= 0 ||
+    return document_find_model(document, text) >= 0 ||
            fail(error, ERROR_INPUT, "expected the name or file of a model rig, got \"%s\"", text);
 }
 
@@ -317,7 +323,7 @@ bool fields_check(const struct document *document, int joints, const struct fiel
                 return fail(error, ERROR_INPUT, "\"%s\" must not be empty", field->key);
             break;
         case FIELD_MODEL:
-            good = model_find(document, text, inside(object, field->flag), error);
+            good = has_model(document, text ? text : "", error);
             break;
         case FIELD_SPLINE:
             good = document_has_spline(document, *(int *)at, error);
@@ -491,8 +497,7 @@ const char *const motion_words[] = {[MOTION_TURN] = "turn",
                                     [MOTION_KINDS] = NULL};
 
 const struct field motion_fields[] = {
-    {FIELD("model", FIELD_MODEL, struct joint_motion, model), .is_required = true,
-     .flag = offsetof(struct joint_motion, by_file)},
+    {FIELD("model", FIELD_MODEL, struct joint_motion, model), .is_required = true},
     {FIELD("joint", FIELD_TEXT, struct joint_motion, joint), .is_required = true},
     {FIELD("of", FIELD_WORD, struct joint_motion, of), .words = motion_words, .is_required = true},
     {FIELD("gain", FIELD_NUMBER, struct joint_motion, gain), .range = FIELD_ANY, .usual = {1}},
@@ -554,14 +559,13 @@ void resolve_motions(struct reader *reader, const struct value *scene)
     const struct document *document = reader->document;
     const struct value splines = reader_member(scene, "splines");
     for (int s = 0; s < document->spline_count; s++) {
-        struct joint_motion *motion = document->splines[s]->parameter[PARAMETER_EQUILIBRIUM].motion;
+        const struct joint_motion *motion = document->splines[s]->parameter[PARAMETER_EQUILIBRIUM].motion;
         const struct value spline = reader_element(&splines, s);
         const struct value object = reader_member(&spline, parameter_rows[PARAMETER_EQUILIBRIUM].name);
         const struct value model = reader_member(&object, "model"), chain = reader_member(&object, "chain");
         struct error error;
         if (!motion) continue;
-        if (!model_find(document, motion->model, &motion->by_file, &error))
-            reader_fail(reader, &model.at, "%s", error.text);
+        if (!has_model(document, motion->model, &error)) reader_fail(reader, &model.at, "%s", error.text);
         if (!has_chain(document, motion, &error)) reader_fail(reader, &chain.at, "%s", error.text);
     }
 }

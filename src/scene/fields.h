@@ -231,7 +231,7 @@ struct field {
     const char *const *words; ///< ended by NULL; an empty one is none
     const struct field *rows; ///< of a list's elements
     size_t count;             ///< place of the number of a list's elements
-    size_t flag;              ///< place of a bool: whether there is a number (0: always), or a model is a file
+    size_t flag;              ///< place of a bool: whether there is a number (0: always)
     bool is_required;         ///< in the file
     bool is_quiet;            ///< not printed if it has its default
     bool is_apart;            ///< ignored when two objects are compared
@@ -294,8 +294,8 @@ const struct field *fields_find(const struct field *fields, const char *key);
 const struct field *rig_fields(const struct rig *rig);
 const struct field *rig_pin_fields(const struct rig *rig);
 
-/// Looks a model rig up by name, else by its file; false: there is none.
-bool model_find(const struct document *document, const char *text, bool *by_file, struct error *error);
+/// Whether there is a model rig with that name, or with that file.
+bool has_model(const struct document *document, const char *text, struct error *error);
 
 /// Whether a spline's equilibrium may follow it; −0 becomes 0, and its model is looked up.
 bool motion_check(const struct document *document, struct joint_motion *motion, struct error *error);

@@ -21,8 +21,7 @@ struct json_t;
 /// The motion of a joint, in its model's clip, relative to its mean over the clip.
 struct joint_motion {
     atomic_int holders; ///< splines
-    char *model;        ///< the name of a model rig, or its file
-    bool by_file;       ///< `model` is the file
+    char *model;        ///< the name of a model rig, else its file
     char *joint;        ///< its name; not looked up here
     enum motion_of of;
     double gain; ///< factor

@@ -217,7 +217,7 @@ void pin_groups_find_bases(const struct document *document, const int *group, in
                 mark_base(group, which, rig->tail.channels[c].spline, bases);
         }
         if (rig->kind != RIG_CHAIN) continue;
-        const int model = document_find_model(document, rig->chain.model, rig->chain.by_file);
+        const int model = document_find_model(document, rig->chain.model);
         for (int on = -1; (on = document_next_chain(document, model, on)) >= 0;) { // everything that bends its model
             const struct chain *chain = &document->rigs[on]->chain;
             for (int c = 0; c < chain->channel_count; c++) mark_base(group, which, chain->channels[c].spline, bases);

@@ -152,8 +152,7 @@ struct model_rig {
 struct chain {
     struct channel *channels; ///< first, as in every kind of rig that has some (rig.h)
     int channel_count;
-    char *model;     ///< the name of a model rig, or its file
-    bool by_file;    ///< `model` is the file
+    char *model;     ///< the name of a model rig, else its file
     char *from, *to; ///< names of the first joint and the last; not looked up here
     double turn;     ///< degrees by which its axes are turned about its own direction
     bool mirror;     ///< side and twist change sign

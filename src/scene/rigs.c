@@ -431,8 +431,7 @@ static const struct field model_fields[] = {
 
 static const struct field chain_fields[] = {
     RIG_FIRST(false),
-    {FIELD("model", FIELD_MODEL, struct rig, chain.model), .is_required = true,
-     .flag = offsetof(struct rig, chain.by_file)},
+    {FIELD("model", FIELD_MODEL, struct rig, chain.model), .is_required = true},
     {FIELD("from", FIELD_TEXT, struct rig, chain.from), .is_required = true},
     {FIELD("to", FIELD_TEXT, struct rig, chain.to), .is_required = true},
     {FIELD("turn", FIELD_NUMBER, struct rig, chain.turn), .range = FIELD_ANY},
@@ -609,10 +608,9 @@ void load_rigs(struct reader *reader, const struct value *scene)
     for (int i = 0; i < document->rig_count; i++) {
         const struct value object = reader_element(&rigs, reader->places[i]);
         const struct where at = {.parent = &object.at, .key = "model"};
-        struct rig *rig = document->rigs[i];
+        const struct rig *rig = document->rigs[i];
         struct error error;
-        if (rig->kind == RIG_CHAIN && rig->chain.model &&
-            !model_find(document, rig->chain.model, &rig->chain.by_file, &error))
+        if (rig->kind == RIG_CHAIN && rig->chain.model && !has_model(document, rig->chain.model, &error))
             reader_fail(reader, &at, "%s", error.text);
     }
 }

@@ -20,7 +20,7 @@ static bool read_walk(const void *context, const struct document *document, cons
 {
     assert_null(coordinate);
     const struct solved *s = context;
-    const int model = document_find_model(document, motion->model, motion->by_file);
+    const int model = document_find_model(document, motion->model);
     reads++;
     if (s->is_missing || model < 0) return false;
     const char *clip = document->rigs[model]->model.clip;

@@ -336,8 +336,7 @@ void bones_follow(struct core *core, int spline, int model, int node)
             if (isfinite(gain) && gain > 0) motion.gain = core_round(gain, 0.01 * gain);
         }
     }
-    const bool goes_on =
-        old->motion && document_find_model(document, old->motion->model, old->motion->by_file) == model;
+    const bool goes_on = old->motion && document_find_model(document, old->motion->model) == model;
     if (goes_on) motion = *old->motion;
     int chosen_on;
     const int chosen = bones_selected(core, &chosen_on);

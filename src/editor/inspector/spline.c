@@ -338,7 +338,7 @@ int inspector_bone_list(struct inspector *in, const struct dropdown *list, int m
 static void choose_joint(struct inspector *in, const struct dropdown *list)
 {
     const struct joint_motion *motion = followed(in)->motion;
-    const int model = document_find_model(in->core->document, motion->model, motion->by_file);
+    const int model = document_find_model(in->core->document, motion->model);
     if (model < 0 || !bones_character(in->core, model)) return;
     const int node = inspector_bone_list(in, list, model, -1, motion->joint);
     if (node >= 0) bones_follow(in->core, in->core->focus.active, model, node);
@@ -467,7 +467,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter)
         build_number(in, (int)parameter, r);
     } else if (param->motion) {
         const struct joint_motion *motion = param->motion;
-        const int model = document_find_model(in->core->document, motion->model, motion->by_file);
+        const int model = document_find_model(in->core->document, motion->model);
         char title[BONES_TITLE];
         const char *text = model < 0 ? motion->joint : bones_title(in->core->document, model, motion->joint, title);
         inspector_bone_field(in, &joint_list, field, 0, text, in->core->focus.active);
