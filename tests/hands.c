@@ -361,9 +361,9 @@ static const char *mentioned(struct session *s, const char *words)
 static bool tells(const struct played *step)
 {
     struct session *s = step->s;
-    const char *label = history_undo_label(s->history), *status = said(s->editor);
+    const char *label = history_label(s->history, history_done(s->history) - 1), *status = said(s->editor);
     if (IS("kept") || IS("undone")) {
-        while (IS("undone") && history_undo_label(s->history)) session_key(s, 'Z', MOD_CTRL);
+        while (IS("undone") && history_label(s->history, history_done(s->history) - 1)) session_key(s, 'Z', MOD_CTRL);
         same(step, session_saved(s), s->kept);
     } else if (IS("once")) {
         const char *changed = session_saved(s);

@@ -43,7 +43,7 @@ struct document *world_edit(struct world *world)
 {
     if (history_is_open(world->history)) return world->document;
     world->before = document_copy(world->document);
-    world->label = history_undo_label(world->history);
+    world->label = history_label(world->history, history_done(world->history) - 1);
     history_begin(world->history, "Step", 0);
     return world->document;
 }
@@ -76,7 +76,7 @@ void assert_refused(struct world *world, bool done, const char *sentence)
     assert_int_equal(world->error.kind, ERROR_INPUT);
     assert_string_equal(world->error.text, sentence);
     assert_document(world, before);
-    assert_ptr_equal(history_undo_label(world->history), world->label);
+    assert_ptr_equal(history_label(world->history, history_done(world->history) - 1), world->label);
     free(before);
 }
 

@@ -190,13 +190,6 @@ bool history_undo(struct history *history) { return history->done > 0 && history
 
 bool history_redo(struct history *history) { return history_jump(history, history->done + 1); }
 
-const char *history_undo_label(const struct history *history) { return current(history)->label; }
-
-const char *history_redo_label(const struct history *history)
-{
-    return history->done < history->step_count ? current(history)[1].label : NULL;
-}
-
 size_t history_count(const struct history *history) { return history->step_count; }
 
 size_t history_done(const struct history *history) { return history->done; }
@@ -207,8 +200,7 @@ size_t history_bytes(const struct history *history) { return history->bytes; }
 
 const char *history_label(const struct history *history, size_t step)
 {
-    assert(step < history->step_count);
-    return history->states[step + 1].label;
+    return step < history->step_count ? history->states[step + 1].label : NULL;
 }
 
 bool history_step_is_saved(const struct history *history, size_t done)

@@ -37,11 +37,8 @@ const struct document *history_before(const struct history *history);
 /// Undoes the last step, or redoes the next; false if there is none. No step may be open.
 bool history_undo(struct history *history);
 bool history_redo(struct history *history);
-/// Label of the step that undo / redo would revert or repeat, or NULL.
-const char *history_undo_label(const struct history *history);
-const char *history_redo_label(const struct history *history);
 
-/// The steps, oldest first: how many there are, how many are not undone, their labels.
+/// The steps, oldest first: how many there are, how many are not undone, their labels; NULL: there is no such step.
 size_t history_count(const struct history *history);
 size_t history_done(const struct history *history);
 const char *history_label(const struct history *history, size_t step);

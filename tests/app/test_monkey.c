@@ -612,7 +612,7 @@ static void keep_small(struct app *app)
 {
     while (document_samples(app->work.document) * (app->work.document->spline_count + 1) > MOST_SAMPLES) {
         undo(app->work.editor);
-        if (!history_redo_label(app->work.history)) return;
+        if (!history_label(app->work.history, history_done(app->work.history))) return;
     }
 }
 

@@ -275,7 +275,7 @@ void core_undo(struct core *core, int direction)
     struct history *history = core->history;
     const bool undoes = direction < 0;
     if (history_is_open(history)) return;
-    const char *label = undoes ? history_undo_label(history) : history_redo_label(history);
+    const char *label = history_label(history, history_done(history) - undoes);
     if (label) core_message(core, false, "%s: %s", undoes ? "Undone" : "Redone", label);
     if (!label) core_message(core, false, "Nothing to %s", undoes ? "undo" : "redo");
     (undoes ? history_undo : history_redo)(history);
