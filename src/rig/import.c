@@ -467,7 +467,9 @@ bool opened_read_splines(struct opened *opened, const char *path, struct error *
         (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
     if (!opened->document) return false;
     document_note_models(opened->document);
-    const bool needs_models = document_has_motions(opened->document) || pins_hold_any(opened->document);
+    bool needs_models = pins_hold_any(opened->document);
+    for (int s = 0; s < opened->document->spline_count; s++)
+        needs_models |= follows_clip(opened->document->splines[s]);
     return !needs_models || read_models(opened, error);
 }
 

@@ -79,17 +79,6 @@ void document_become(struct document *document, struct document *other)
     free(other);
 }
 
-bool document_equals(const struct document *a, const struct document *b)
-{
-    bool same = a->serial == b->serial && a->fps == b->fps && a->substeps == b->substeps &&
-                a->first_frame == b->first_frame && a->last_frame == b->last_frame &&
-                a->spline_count == b->spline_count && a->rig_count == b->rig_count &&
-                fields_equal(background_fields, &a->background, &b->background);
-    for (int i = 0; same && i < a->spline_count; i++) same = a->splines[i] == b->splines[i];
-    for (int i = 0; same && i < a->rig_count; i++) same = a->rigs[i] == b->rigs[i];
-    return same;
-}
-
 struct spline *spline_create(void)
 {
     struct spline *spline = need_zeroed(1, sizeof *spline);
@@ -274,14 +263,6 @@ bool document_check_joints(const struct document *document, struct error *error)
 int document_longest(const struct document *document)
 {
     return (most_samples(document->spline_count, document_count_limited(document)) - 1) / document->substeps;
-}
-
-bool document_has_motions(const struct document *document)
-{
-    for (int i = 0; i < document->spline_count; i++) {
-        if (document->splines[i]->parameter[PARAMETER_EQUILIBRIUM].motion) return true;
-    }
-    return false;
 }
 
 bool document_loops(const struct document *document)

@@ -111,9 +111,6 @@ struct document *document_copy(const struct document *document);
 /// Moves `other` into a document; `other` is destroyed.
 void document_become(struct document *document, struct document *other);
 
-/// Whether two are the same value: the same splines and rigs in the same frames.
-bool document_equals(const struct document *a, const struct document *b);
-
 /// Gives `edits` a new number; call it after writing to a document outside of its splines and rigs.
 void document_touch(struct document *document);
 
@@ -162,9 +159,6 @@ bool document_check_joints(const struct document *document, struct error *error)
 
 /// The largest number of frames that the document's splines allow.
 int document_longest(const struct document *document);
-
-/// Whether the equilibrium of any spline follows a joint.
-bool document_has_motions(const struct document *document);
 
 /// Whether a spline of the document loops; new splines then loop too.
 bool document_loops(const struct document *document);

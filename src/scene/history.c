@@ -1,6 +1,7 @@
 /// The undo history: documents, and the steps between them.
 #include "scene/history.h"
 #include "base/need.h"
+#include "scene/fields.h"
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,9 +99,17 @@ static void go_back(struct history *history)
     document_become(document, next);
 }
 
+/// Whether the document is another value than the current state: other splines or rigs, or other frames.
 static bool has_changed(const struct history *history)
 {
-    return !document_equals(history->document, current(history)->document);
+    const struct document *a = history->document, *b = current(history)->document;
+    bool same = a->serial == b->serial && a->fps == b->fps && a->substeps == b->substeps &&
+                a->first_frame == b->first_frame && a->last_frame == b->last_frame &&
+                a->spline_count == b->spline_count && a->rig_count == b->rig_count &&
+                fields_equal(background_fields, &a->background, &b->background);
+    for (int i = 0; same && i < a->spline_count; i++) same = a->splines[i] == b->splines[i];
+    for (int i = 0; same && i < a->rig_count; i++) same = a->rigs[i] == b->rigs[i];
+    return !same;
 }
 
 void history_restart(struct history *history)
