@@ -91,8 +91,8 @@ static inline bool range_has(struct range range, double number)
 bool reader_fail(struct reader *reader, const struct where *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/// The same with a complete sentence.
-bool reader_report(struct reader *reader, const struct error *error);
+/// The same with a complete sentence; or a warning.
+bool reader_report(struct reader *reader, bool is_error, const struct error *problem);
 
 /// Like reader_fail(), but a warning; does nothing without `problems`.
 void reader_warn(struct reader *reader, const struct where *where, const char *format, ...)

@@ -415,7 +415,7 @@ struct document *scene_load(const char *path, struct problems *problems, struct 
     struct reader outside = {.problems = problems, .error = error}; // problems of the file itself, without a line
     struct error trouble;
     if (!file_read(path, SOURCE_MAX_BYTES, &text, &size, &trouble)) {
-        reader_report(&outside, &trouble);
+        reader_report(&outside, true, &trouble);
         return NULL;
     }
     struct document *document = parse_document(path, text, size, problems, error);
@@ -424,7 +424,7 @@ struct document *scene_load(const char *path, struct problems *problems, struct 
     char folder[PATH_LIMIT]; // in which the paths in the document start
     if (!path_folder(path, folder)) {
         fail(&trouble, ERROR_ENVIRONMENT, "%s: the path is too long", path);
-        reader_report(&outside, &trouble);
+        reader_report(&outside, true, &trouble);
         document_destroy(document);
         return NULL;
     }

@@ -223,22 +223,14 @@ static void compose_problem(struct reader *reader, const struct where *where, st
          sentence);
 }
 
-static void report_problem(struct reader *reader, bool is_error, const char *sentence)
+bool reader_report(struct reader *reader, bool is_error, const struct error *problem)
 {
     struct problems *problems = reader->problems;
-    if (!problems) return;
-    if (is_error) {
-        problems->errors++;
-    } else {
-        problems->warnings++;
-    }
-    problems->report(problems->user, is_error, sentence);
-}
-
-bool reader_report(struct reader *reader, const struct error *error)
-{
-    if (reader->errors++ == 0 && reader->error) *reader->error = *error;
-    report_problem(reader, true, error->text);
+    if (is_error && reader->errors++ == 0 && reader->error) *reader->error = *problem;
+    if (!problems) return false;
+    problems->errors += is_error;
+    problems->warnings += !is_error;
+    problems->report(problems->user, is_error, problem->text);
     return false;
 }
 
@@ -250,7 +242,7 @@ bool reader_fail(struct reader *reader, const struct where *where, const char *f
     va_start(arguments, format);
     compose_problem(reader, where, &error, format, arguments);
     va_end(arguments);
-    return reader_report(reader, &error);
+    return reader_report(reader, true, &error);
 }
 
 void reader_warn(struct reader *reader, const struct where *where, const char *format, ...)
@@ -261,7 +253,7 @@ void reader_warn(struct reader *reader, const struct where *where, const char *f
     va_start(arguments, format);
     compose_problem(reader, where, &warning, format, arguments);
     va_end(arguments);
-    report_problem(reader, false, warning.text);
+    reader_report(reader, false, &warning);
 }
 
 bool reader_unexpected(struct reader *reader, struct value value, const char *expected)
@@ -496,7 +488,7 @@ json_t *reader_parse(struct reader *reader)
     struct error error;
     json_error_t syntax;
     if (!source_check_limits(source, &error)) {
-        reader_report(reader, &error);
+        reader_report(reader, true, &error);
         return NULL;
     }
     // Whole numbers stay integers, so that unknown keys stay exact, unless one is too large.
@@ -534,6 +526,6 @@ json_t *reader_parse(struct reader *reader)
     }
     source_path_at(source, (size_t)syntax.position, path);
     fail(&error, ERROR_INPUT, "%s:%d: %s: %s", source->name, syntax.line, path, sentence);
-    reader_report(reader, &error);
+    reader_report(reader, true, &error);
     return NULL;
 }
