@@ -151,32 +151,30 @@ bool character_find_pin(const struct posing *posing, const struct pin_query *que
     return true;
 }
 
-void character_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
+double character_weigh(const struct posing *posing, int rig, int spline)
 {
     const struct model_rig *model = &posing->document->rigs[rig]->model;
     const struct figure *figure = models_figure(posing->models, posing->document, rig);
-    for (int i = 0; figure && i < count; i++) {
-        double sum = 0, areas = 0;
-        for (int t = 0; t + 2 < figure->character.index_count; t += 3) {
-            const uint32_t *corner = figure->character.indices + t;
-            const float(*position)[3] = (const float(*)[3])figure->character.position;
-            double u[3], v[3];
-            for (int k = 0; k < 3; k++) {
-                u[k] = (double)(position[corner[1]][k] - position[corner[0]][k]);
-                v[k] = (double)(position[corner[2]][k] - position[corner[0]][k]);
-            }
-            const double area = maths_hypot(maths_hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]),
-                                            u[0] * v[1] - u[1] * v[0]) /
-                                2;
-            areas += area;
-            for (int k = 0; k < 3; k++) {
-                pin_pull c = {{0}};
-                find_pull(model, figure, NULL, NULL, (int)corner[k], splines[i], c);
-                sum += area / 3 * pinning_square(c);
-            }
+    double sum = 0, areas = 0;
+    for (int t = 0; figure && t + 2 < figure->character.index_count; t += 3) {
+        const uint32_t *corner = figure->character.indices + t;
+        const float(*position)[3] = (const float(*)[3])figure->character.position;
+        double u[3], v[3];
+        for (int k = 0; k < 3; k++) {
+            u[k] = (double)(position[corner[1]][k] - position[corner[0]][k]);
+            v[k] = (double)(position[corner[2]][k] - position[corner[0]][k]);
         }
-        if (areas > 0) weights[i] += model->scale * model->scale * sum / areas;
+        const double area = maths_hypot(maths_hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]),
+                                        u[0] * v[1] - u[1] * v[0]) /
+                            2;
+        areas += area;
+        for (int k = 0; k < 3; k++) {
+            pin_pull c = {{0}};
+            find_pull(model, figure, NULL, NULL, (int)corner[k], spline, c);
+            sum += area / 3 * pinning_square(c);
+        }
     }
+    return areas > 0 ? model->scale * model->scale * sum / areas : 0;
 }
 
 // --- lowest vertices: several samples at a time, so that most vertices can be excluded for all of them at once

@@ -87,12 +87,10 @@ static bool source_find(const void *context, const struct evaluation *evaluation
     return (is_character ? character_find_pin : strand_find_pin)(&posing, query, c, point);
 }
 
-static void source_weigh(const void *context, const struct document *document, int rig, const int *splines, int count,
-                         double *weights)
+static double source_weigh(const void *context, const struct document *document, int rig, int spline)
 {
     const struct posing posing = {.document = document, .models = context, .at_rest = true};
-    const bool is_character = document->rigs[rig]->kind == RIG_MODEL;
-    (is_character ? character_weigh : strand_weigh)(&posing, rig, splines, count, weights);
+    return (document->rigs[rig]->kind == RIG_MODEL ? character_weigh : strand_weigh)(&posing, rig, spline);
 }
 
 static bool source_lowest(const void *context, const struct evaluation *evaluation, const struct document *document,

@@ -98,10 +98,10 @@ void pose_character(const struct model_rig *rig, const struct figure *figure, co
 /// How points of a tail or chain, or of a character, are found and moved, like model_source.find() and weigh(). `posing` uses the paper's look.
 bool strand_find_pin(const struct posing *posing, const struct pin_query *query, pin_pull *c,
                      struct pin_point *point);
-void strand_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights);
+double strand_weigh(const struct posing *posing, int rig, int spline);
 bool character_find_pin(const struct posing *posing, const struct pin_query *query, pin_pull *c,
                         struct pin_point *point);
-void character_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights);
+double character_weigh(const struct posing *posing, int rig, int spline);
 
 /// For angles in files, which are degrees.
 static inline double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }

@@ -523,20 +523,21 @@ bool strand_find_pin(const struct posing *posing, const struct pin_query *query,
     return true;
 }
 
-void strand_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
+double strand_weigh(const struct posing *posing, int rig, int spline)
 {
     const wiggly_value values[RIG_MAX_INPUTS] = {{0}};
+    const struct pin_query query = {.splines = &spline, .count = 1};
+    double sum = 0;
     struct strand strand;
     struct path path;
     if (!path_find(posing, rig, 0, NULL, &path) ||
         !strand_find(posing, rig_body(posing->document, rig), rig, &strand))
-        return;
+        return 0;
     for (int n = 0; n < strand.joints; n++) {
+        pin_pull c[1] = {{{0}}};
         path_arms(&path, n);
-        for (int i = 0; i < count; i++) {
-            pin_pull c[1] = {{{0}}};
-            add_bends(&path, n, &strand, values, &(struct pin_query){.splines = &splines[i], .count = 1}, c);
-            weights[i] += pinning_square(c[0]) / strand.joints;
-        }
+        add_bends(&path, n, &strand, values, &query, c);
+        sum += pinning_square(c[0]) / strand.joints;
     }
+    return sum;
 }

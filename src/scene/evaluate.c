@@ -389,7 +389,7 @@ static bool pinned_begin(struct evaluation *evaluation, const struct document *d
         const struct model_source *source = &evaluation->models;
         pinned->weight[s] = 0;
         for (int r = 0; r < document->rig_count; r++)
-            source->weigh(source->context, document, r, &s, 1, &pinned->weight[s]);
+            pinned->weight[s] += source->weigh(source->context, document, r, s);
         if (!(pinned->weight[s] > 0)) pinned->weight[s] = 1; // splines that move nothing
     }
     for (int s = 0; s < count; s++) pinned->was[s] = pinned->which[s] >= 0;

@@ -59,9 +59,8 @@ struct model_source {
     /// there are none). false: its model is missing, or has no such point. NULL: pins are ignored.
     bool (*find)(const void *context, const struct evaluation *evaluation, const struct document *document,
                  const struct pin_query *query, pin_pull *c, struct pin_point *point);
-    /// Adds to each spline's weight the mean of |c|² over the surface of a rig at rest.
-    void (*weigh)(const void *context, const struct document *document, int rig, const int *splines, int count,
-                  double *weights);
+    /// The mean of |c|² of a spline over the surface of a rig at rest.
+    double (*weigh)(const void *context, const struct document *document, int rig, int spline);
     /// Finds a character's lowest vertex at every sample. Vertices not below `ceiling` may be skipped; the height is then `ceiling` and the vertex
     /// -1. `room` has LOW_POINT_ROOM numbers per low_point_samples(). false: its model is missing.
     bool (*lowest)(const void *context, const struct evaluation *evaluation, const struct document *document, int rig,
