@@ -217,25 +217,28 @@ static struct far find_farthest(const struct look *look)
     return far;
 }
 
-static void find_far(const struct look *look)
+void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
+                      struct warnings *found)
 {
-    const wiggly_curve *curve = look->curve;
-    const struct far far = find_farthest(look);
+    struct look look;
+    if (!look_at(document, evaluation, of, found, &look) || spline_winds_up(document, of)) return;
+    const wiggly_curve *curve = look.curve;
+    const struct far far = find_farthest(&look);
     const int peak = far.sample;
-    if (spline_mode(look->spline) == WIGGLY_CUBIC || far.times <= 1 || spline_is_limited(look->spline)) return;
+    if (spline_mode(look.spline) == WIGGLY_CUBIC || far.times <= 1 || spline_is_limited(look.spline)) return;
     struct warning warning = {.kind = WARNING_FAR,
-                              .frame = document_frame(look->document, peak),
+                              .frame = document_frame(look.document, peak),
                               .value = curve->total[peak],
                               .remedy = curve->y[peak] + copysign(far.limit, curve->total[peak] - curve->y[peak]),
                               .phase = curve->im[peak] * far.limit / height(curve, peak)};
 
     // Limits, in short numbers: the equilibrium's range plus a little more than the highest knot on either side.
-    const struct measure all = measure(look);
+    const struct measure all = measure(&look);
     const double room = 1.15 * (all.value > 0 ? all.value : all.knots);
     const double digits = maths_power_of_ten(1 - maths_decade(room));
     warning.low = floor((all.low - room) * digits) / digits;
     warning.high = ceil((all.high + room) * digits) / digits;
-    add_warning(look, warning);
+    add_warning(&look, warning);
 }
 
 /// The highest frequency of the spline in Hz.
@@ -355,13 +358,6 @@ double warning_left(const struct warning *warning, const struct document *docume
     return ends > 0 ? ends / least : INFINITY;
 }
 
-void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
-                      struct warnings *found)
-{
-    struct look look;
-    if (look_at(document, evaluation, of, found, &look) && !spline_winds_up(document, of)) find_far(&look);
-}
-
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
                          struct warnings *found)
 {
@@ -392,7 +388,7 @@ void warnings_add(const struct document *document, const struct evaluation *eval
     if (!look_at(document, evaluation, of, found, &look)) return;
     const struct spline *spline = look.spline;
     const bool is_cubic = spline_mode(spline) == WIGGLY_CUBIC;
-    if (!spline_winds_up(document, of)) find_far(&look);
+    warnings_add_far(document, evaluation, of, found);
 
     const int pose = spline_idle_pose(spline);
     for (int k = 0; k < spline->knot_count; k++) {
