@@ -233,9 +233,10 @@ void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_
 
 void gltf_pose_loop(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose)
 {
+    gltf_pose_clip(gltf, clip, time, pose);
+    if (clip < 0) return;
     const struct gltf_clip *of = &gltf->clips[clip];
     const double into = fmin(time - of->last, of->gap), share = into / (of->last - of->first);
-    gltf_pose_clip(gltf, clip, time, pose);
     for (int i = 0; into > 0 && i < of->channel_count; i++) {
         const struct gltf_channel *channel = &of->channels[i];
         const int n = channel->components, stride = gltf_stride(channel), value = stride > n ? n : 0;

@@ -40,11 +40,8 @@ struct gltf_pose *posing_clip(const struct posing *posing, int rig, double posit
     const struct gltf *gltf = &imported->gltf;
     const char *name = document->rigs[rig]->kind == RIG_MODEL ? document->rigs[rig]->model.clip : NULL;
     const int clip = posing->at_rest ? -1 : gltf_find_clip(gltf, name);
-    if (clip < 0) {
-        gltf_pose_clip(gltf, clip, 0, pose);
-        return pose;
-    }
-    const struct clip_play play = clip_play(&document->rigs[rig]->model, &gltf->clips[clip]);
+    struct clip_play play = {0};
+    if (clip >= 0) play = clip_play(&document->rigs[rig]->model, &gltf->clips[clip]);
     gltf_pose_loop(gltf, clip, posing_clip_time(document, position, &play), pose);
     return pose;
 }
@@ -144,11 +141,7 @@ static double followed_at(struct followed *followed, double time)
 {
     const double travelled = followed->drift * (time - followed->play.first);
     const struct gltf *gltf = &followed->imported->gltf;
-    if (followed->clip < 0) {
-        gltf_pose_clip(gltf, -1, 0, followed->pose);
-    } else {
-        gltf_pose_loop(gltf, followed->clip, time, followed->pose);
-    }
+    gltf_pose_loop(gltf, followed->clip, time, followed->pose);
     gltf_pose_world(gltf, followed->pose);
     const vec3s side = vec3_from(followed->axes.side), along = vec3_from(followed->axes.along);
     if (followed->of == MOTION_TURN) { // degrees about the side axis by which the joint has turned from rest
@@ -243,13 +236,11 @@ bool clip_follow(const void *context, const struct document *document, const str
     const int clip = gltf_find_clip(&imported->gltf, model->clip);
     struct chain_axes axes = {
         .side = {0, 1, 0}, .up = {-1, 0, 0}, .along = {0, 0, 1}}; // of a chain that points to the front
-    for (int r = document->rig_count - 1; motion->chain && r >= 0; r--) {
-        const struct rig *chain = document->rigs[r];
-        struct chain_bones bones;
-        if (chain->kind != RIG_CHAIN || !chain->name || strcmp(chain->name, motion->chain) != 0) continue;
-        if (chain_find(&imported->gltf, chain->chain.from, chain->chain.to, &bones, NULL))
-            axes = chain_axes_at_rest(imported, &chain->chain, &bones);
-    }
+    const int found = motion->chain ? document_find_chain(document, motion->chain) : -1;
+    const struct chain *chain = found >= 0 ? &document->rigs[found]->chain : NULL;
+    struct chain_bones bones;
+    if (chain && chain_find(&imported->gltf, chain->from, chain->to, &bones, NULL))
+        axes = chain_axes_at_rest(imported, chain, &bones);
     struct followed followed = {.imported = imported,
                                 .pose = models_pose(models, document, rig, POSE_UNSEEN),
                                 .node = gltf_find_node(&imported->gltf, motion->joint),
