@@ -283,12 +283,11 @@ static int do_part(struct world *world, const struct words *w, struct error *err
     }
     if (is(w, "undrive")) return edit_drive(d, w->rig, NUMBER(2), NULL, error);
     const int first = is(w, "pin") ? 2 : 3;
-    struct pin pin = {.frame = w->number[first], .point = NUMBER(first + 1), .id = 9999};
+    struct pin pin = {.frame = w->number[first], .point = NUMBER(first + 1), .id = first == 2 ? 0 : 9999};
     for (int k = 0; k < 3; k++) pin.to[k] = w->number[first + 2 + k];
     if (is_there && first == 3 && NUMBER(2) < d->rigs[w->rig]->pin_count)
         pin.id = d->rigs[w->rig]->pins[NUMBER(2)].id;
-    if (is(w, "pin")) return edit_pin_add(d, w->rig, &pin, error);
-    if (is(w, "repin")) return edit_pin_set(d, w->rig, &pin, error);
+    if (is(w, "pin") || is(w, "repin")) return edit_pin_set(d, w->rig, &pin, error);
     if (is(w, "unpin")) return edit_pin_remove(d, w->rig, pin.id, error);
     return -1;
 }

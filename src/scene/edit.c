@@ -789,19 +789,6 @@ static const struct rig *find_pinned(const struct document *document, int rig, u
     return NULL;
 }
 
-bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error)
-{
-    const struct rig *old = find_rig(document, rig, EDIT_ANY_KIND, error);
-    struct pin added = *pin;
-    if (!old || !check_pin(document, old, &added, error)) return false;
-    if (pins_count(document) >= SCENE_MAX_PINS)
-        return fail(error, ERROR_INPUT, "the limit of %d pins is reached", SCENE_MAX_PINS);
-    struct document *before = document_copy(document);
-    added.id = document->next_id++;
-    pins_insert(document_own_rig(document, rig), &added);
-    return end_edit(document, before, true, error);
-}
-
 bool edit_pin_remove(struct document *document, int rig, unsigned id, struct error *error)
 {
     if (!find_pinned(document, rig, id, error)) return false;
@@ -812,15 +799,25 @@ bool edit_pin_remove(struct document *document, int rig, unsigned id, struct err
 
 bool edit_pin_set(struct document *document, int rig, const struct pin *pin, struct error *error)
 {
-    const struct rig *old = find_pinned(document, rig, pin->id, error);
+    const bool is_new = pin->id == 0;
+    const struct rig *old =
+        is_new ? find_rig(document, rig, EDIT_ANY_KIND, error) : find_pinned(document, rig, pin->id, error);
     struct pin changed = *pin;
     if (!old || !check_pin(document, old, &changed, error)) return false;
-    const struct pin *was = &old->pins[pins_find_id(old, pin->id)];
-    if (fields_equal(rig_pin_fields(old), was, &changed)) return true;
-    changed.extra = was->extra;
+    if (is_new && pins_count(document) >= SCENE_MAX_PINS)
+        return fail(error, ERROR_INPUT, "the limit of %d pins is reached", SCENE_MAX_PINS);
+    if (!is_new) {
+        const struct pin *was = &old->pins[pins_find_id(old, pin->id)];
+        if (fields_equal(rig_pin_fields(old), was, &changed)) return true;
+        changed.extra = was->extra;
+    }
     struct document *before = document_copy(document);
     struct rig *own = document_own_rig(document, rig);
-    pins_remove(own, changed.id);
+    if (is_new) {
+        changed.id = document->next_id++;
+    } else {
+        pins_remove(own, changed.id);
+    }
     pins_insert(own, &changed);
     return end_edit(document, before, true, error);
 }

@@ -97,8 +97,7 @@ bool edit_drive(struct document *document, int rig, int index, const struct driv
 bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error);
 bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error);
 
-/// Adds a pin and gives it an id; sets frame, point and place of the pin with that id; removes it.
-bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error);
+/// Sets frame, point and place of the pin with that id; id 0: a new one. And removes it.
 bool edit_pin_set(struct document *document, int rig, const struct pin *pin, struct error *error);
 bool edit_pin_remove(struct document *document, int rig, unsigned id, struct error *error);
 

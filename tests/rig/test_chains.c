@@ -549,7 +549,7 @@ DOG_TEST(a_chosen_clip_gives_the_scene_its_length)
         if (then == ADD_KNOT) assert_done(edit_knot_insert(document, 1, &knot, &error));
         if (then == REMOVE_KNOT)
             assert_done(edit_knot_remove(document, 1, document->splines[1]->knots[0].id, &error));
-        if (then == ADD_PIN) assert_done(edit_pin_add(document, 1, &pin, &error));
+        if (then == ADD_PIN) assert_done(edit_pin_set(document, 1, &pin, &error));
         if (then == REMOVE_PIN) assert_done(edit_pin_remove(document, 1, document->rigs[1]->pins[0].id, &error));
         for (int s = 0; s < 2 && then == FOLLOW_NOTHING; s++)
             assert_done(edit_parameter(document, s, PARAMETER_EQUILIBRIUM, &none, &error));

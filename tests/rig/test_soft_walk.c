@@ -101,7 +101,7 @@ TEST(a_point_of_a_walking_character_is_pinned)
         }
         assert_true(fabs(pull[0][0][0]) + fabs(pull[0][1][0]) > 0.01 && fabs(pull[1][0][0]) == 0);
         struct document *document = stand_begin(&stand);
-        stand_end(&stand, edit_pin_add(document, 0, &pin, NULL));
+        stand_end(&stand, edit_pin_set(document, 0, &pin, NULL));
         stand_solve(&stand);
         assert_true(length_of(stand_left(&stand, 0, 0)->way) < 1e-7);
         struct rig_pose posed;

@@ -329,7 +329,7 @@ TEST(pins_of_an_edit)
     world_must(&world, world_do(&world, "range 0 200 refuse"));
     for (int n = 11; n < 1024; n++)
         world_must(&world,
-                   edit_pin_add(world_edit(&world), 0, &(struct pin){n % 200, n / 200 + 4, {0}, 0, NULL}, NULL));
+                   edit_pin_set(world_edit(&world), 0, &(struct pin){n % 200, n / 200 + 4, {0}, 0, NULL}, NULL));
     assert_refused(&world, world_do(&world, "pin t 1 0 0 0 0"), "the limit of 1024 pins is reached");
     world_close(&world);
 }

@@ -152,7 +152,7 @@ static double pin_near(struct stand *stand, int rig, int point, double frame, do
     for (int s = 0; s < document_of(stand)->spline_count; s++) {
         for (int k = 0; k < 3; k++) pin.to[k] += c[s][k][0] * re - c[s][k][1] * im;
     }
-    stand_end(stand, edit_pin_add(stand_begin(stand), rig, &pin, NULL));
+    stand_end(stand, edit_pin_set(stand_begin(stand), rig, &pin, NULL));
     return length_of((const double[]){pin.to[0] - at.at[0], pin.to[1] - at.at[1], pin.to[2] - at.at[2]});
 }
 

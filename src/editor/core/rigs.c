@@ -589,7 +589,7 @@ bool pins_set(struct document *document, int rig, const struct pin *pin, struct 
 {
     struct pin rounded = *pin;
     for (int k = 0; k < 3; k++) rounded.to[k] = core_round(pin->to[k], RESOLUTION);
-    return pin->id == 0 ? edit_pin_add(document, rig, &rounded, error) : edit_pin_set(document, rig, &rounded, error);
+    return edit_pin_set(document, rig, &rounded, error);
 }
 
 void pins_tell(struct core *core, int rig)
