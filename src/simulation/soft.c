@@ -362,6 +362,7 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     soft->young =
         options->young > 0 ? options->young : pow(options->frequency / soft->modes.frequency[soft->seen], 2);
     for (int k = 0; k < soft->modes.count; k++) soft->modes.frequency[k] *= sqrt(soft->young);
+    if (!(options->young > 0)) soft->modes.frequency[soft->seen] = options->frequency; // to the last bit
     body->material = material_from(soft->young, options->poisson);
     const double omega = 2 * M_PI * soft_frequency(soft);
     soft->alpha = options->damping * omega;

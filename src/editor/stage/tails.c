@@ -186,7 +186,7 @@ static double pull_back(const double (*column)[2], int columns, const double mis
     const double most = fmax(values[0], values[1]);
     pull[0] = pull[1] = 0;
     for (int e = 0; e < 2 && most > 0; e++) { // a direction gives way, unless it moves a fifth as far as the best one
-        const double share = fmax(values[e], 0) / most, way[2] = {vectors[e], vectors[2 + e]};
+        const double share = fmax(values[e], 0) / most, way[2] = {vectors[2 * e], vectors[2 * e + 1]};
         const double beyond = share > 0 ? fmax(0, REACH / share * (REACH / share) - 1) : INFINITY;
         const double along = (way[0] * miss[0] + way[1] * miss[1]) / (most * (share + beyond * beyond));
         for (int k = 0; k < 2; k++) pull[k] += along * way[k];
