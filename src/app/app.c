@@ -356,7 +356,7 @@ void app_frame(struct app *app)
 
 // --- start and end
 
-enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
+enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10 };
 enum { LOG_ROWS = 1 << 16 };
 
 /// Makes a frame; false after the last.
@@ -371,22 +371,14 @@ static bool run_frame(void *user)
     }
     app_frame(app);
     if (app->frame == 1 && timed && !app->log) {
-        // Only a log needs the reference frame measured, so that nobody waits for it at a window.
         struct frame_header header = {
             .gl_renderer = app->draw ? draw_renderer_name() : NULL,
             .solver = evaluation_solver(&app->work.evaluation),
             .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
             .warm_up = WARM_UP,
-            .reference_ms = NAN,
             .first_frame_ms = 1e3 * process_age(),
         };
         platform_size(app->platform, &header.width, &header.height, &header.scale);
-        if (o->log && !header.vsync && app->draw) {
-            header.reference_ms = draw_reference_ms(app->draw, header.width, header.height,
-                                                    header.scale * (float)app->ui_scale_shown, REFERENCE_FRAMES);
-            app->must_redraw = true;
-            app->last_swap = NAN;
-        }
         app->log = framelog_open(o->log, &header, LOG_ROWS, &app->error);
         if (app->log) {
             framelog_push(app->log, &app->row);

@@ -40,10 +40,6 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
 /// Reads the framebuffer back: width·height·4 bytes, top row first, alpha 255.
 void draw_read(int width, int height, unsigned char *rgba);
 
-/// Draws a fixed reference frame `count` times and returns the median in milliseconds, for the log's header. Afterwards the framebuffer no
-/// longer holds the last frame.
-double draw_reference_ms(struct draw *draw, int width, int height, float scale, int count);
-
 /// Renderer and version strings of the context.
 const char *draw_renderer_name(void);
 

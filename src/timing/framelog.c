@@ -151,15 +151,6 @@ struct framelog {
     long pushed, written; ///< rows of the run so far
 };
 
-static void write_milliseconds(FILE *file, const char *key, double value)
-{
-    if (isnan(value)) {
-        fprintf(file, "# %s: NA\n", key);
-    } else {
-        fprintf(file, "# %s: %.3f\n", key, value);
-    }
-}
-
 static void write_solver(FILE *file, const char *solver) { fprintf(file, "# solver: %s\n", solver ? solver : "NA"); }
 
 static void write_header(FILE *file, const struct frame_header *header)
@@ -181,8 +172,10 @@ static void write_header(FILE *file, const struct frame_header *header)
     fprintf(file, "# vsync: %d\n", header->vsync);
     write_solver(file, header->solver);
     fprintf(file, "# warm_up_frames: %d\n", header->warm_up);
-    write_milliseconds(file, "reference_frame_ms", header->reference_ms);
-    write_milliseconds(file, "first_frame_ms", header->first_frame_ms);
+    if (isnan(header->first_frame_ms))
+        fputs("# first_frame_ms: NA\n", file);
+    else
+        fprintf(file, "# first_frame_ms: %.3f\n", header->first_frame_ms);
     for (int c = 0; c < COLUMN_COUNT; c++) fprintf(file, "%s%s", c ? "," : "", timing_columns[c].name);
     fputc('\n', file);
 }

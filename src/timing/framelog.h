@@ -31,7 +31,6 @@ struct frame_header {
     float scale;
     int vsync;
     int warm_up;           ///< frames left out of the summary and marked in the header
-    double reference_ms;   ///< median of the fixed reference frame
     double first_frame_ms; ///< start of the process to the end of the first swap; NAN for these two: NA
 };
 

@@ -11,13 +11,8 @@ static char path[96], other_path[96];
 
 // --- a log
 
-static const struct frame_header header = {.gl_renderer = "test",
-                                           .width = 1280,
-                                           .height = 720,
-                                           .scale = 1,
-                                           .warm_up = 2,
-                                           .reference_ms = 9.5,
-                                           .first_frame_ms = NAN};
+static const struct frame_header header = {
+    .gl_renderer = "test", .width = 1280, .height = 720, .scale = 1, .warm_up = 2, .first_frame_ms = NAN};
 
 static struct framelog *open_log(const char *to, int capacity)
 {
@@ -116,7 +111,6 @@ TEST(the_header_says_where_it_was_measured)
         "# vsync: 0\n",
         "# solver: NA\n",
         "# warm_up_frames: 2\n",
-        "# reference_frame_ms: 9.500\n",
         "# first_frame_ms: NA\n",
         "\n2,0.040000,10.0200,15.0200,10.0,0.0,0.0,1002.0,0.0,0.0,0.0,NA,0.0,0,121,5,0,NA,NA,0\n"};
     write_log(path, 3, 256, 10);
@@ -403,8 +397,7 @@ static void push_work(struct framelog *log, struct frame_row *row)
 /// Both builds' logs. The machine's speed wanders from frame to frame, the same for both: they draw in turn.
 static void write_pairs(unsigned seed, const struct plant *plant)
 {
-    const struct frame_header head = {
-        .gl_renderer = "test", .warm_up = 10, .reference_ms = NAN, .first_frame_ms = NAN};
+    const struct frame_header head = {.gl_renderer = "test", .warm_up = 10, .first_frame_ms = NAN};
     const int frames = quick_or_all(150, 300);
     char command[400];
     srand(seed);

@@ -405,18 +405,6 @@ TEST(moving_playhead_costs_little)
     assert_int_equal(move_playhead(&stage).uploaded_bytes, bytes);
 }
 
-TEST(reference_frame_does_not_depend_on_the_scene)
-{
-    begin();
-    assert_true(draw_reference_ms(draw, WIDTH, HEIGHT, 1, 3) > 0);
-    draw_read(WIDTH, HEIGHT, expected);
-    record_panel(10);
-    show();
-    assert_true(draw_reference_ms(draw, WIDTH, HEIGHT, 1, 3) > 0);
-    draw_read(WIDTH, HEIGHT, pixels);
-    assert_memory_equal(pixels, expected, sizeof pixels);
-}
-
 TEST(gpu_times_come_back_with_their_frames)
 {
     begin();
