@@ -20,7 +20,7 @@ BEGIN {
     sees["editor"]   = "editor ui export rig scene model spline maths base include"
     sees["draw"]     = "draw ui model maths base"
     sees["platform"] = "platform ui model base"
-    sees["timing"]   = "timing base include"
+    sees["timing"]   = "timing base maths include"
     sees["analysis"] = "analysis model spline maths base include"
     sees["app"]      = "app draw platform timing " sees["editor"]
     sees["commands"] = "commands simulation analysis " sees["app"]

@@ -15,6 +15,7 @@
 #include "base/need.h"
 #include "commands/report.h"
 #include "commands/shaking.h"
+#include "maths/maths.h"
 #include "maths/symmetric.h"
 #include "model/character.h"
 #include "model/gltf.h"
@@ -229,12 +230,6 @@ static void make_lines(struct flesh *f, bool has_part)
     f->region.line = (const double(*)[2][3])line;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 /// Finds the depth, and how far the flesh reaches.
 static void measure(struct flesh *f, double depth)
 {
@@ -250,7 +245,7 @@ static void measure(struct flesh *f, double depth)
         if (f->share[v] > 0.5) away[soft++] = f->moves[v];
     }
     if (soft == 0) away[soft++] = 0;
-    qsort(away, soft, sizeof *away, compare_numbers);
+    qsort(away, soft, sizeof *away, maths_compare);
     f->region.held = f->held;
     f->region.size = depth >= 0 ? depth : usual_depth * away[soft / 2];
     f->thickness = away[soft - 1];

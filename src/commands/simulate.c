@@ -1,4 +1,4 @@
-/// `wiggly simulate`: shakes a mesh as a soft body, or finds its normal modes.
+/// `wiggly simulate`: shakes a mesh as a soft body.
 #include "analysis/analysis.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -26,7 +26,6 @@ struct job {
     struct shaking by;
     double floor; ///< height above the lowest point; below 0: none
     bool world;   ///< positions in the world, not relative to the base
-    bool modal;
 };
 
 /// Simulates, writes the motion and prints the cost. Of `soft` it changes only the body's scratch memory.
@@ -110,35 +109,6 @@ static bool make_body(struct job *job, struct soft *soft, const struct surface *
     return true;
 }
 
-/// Writes each mode's displacement, scaled to a maximum of 1.
-static bool write_modes(const struct job *job, const struct soft *soft, struct error *error)
-{
-    const int vertices = soft->lattice.vertex_count, nodes = soft->body.node_count;
-    struct file_output output;
-    float(*shape)[3] = need_zeroed((size_t)vertices + 1, sizeof *shape);
-    bool good = motion_start(&output, job->output, soft->modes.count, vertices, error);
-    for (int k = 0; good && k < soft->modes.count; k++) {
-        lattice_embed(&soft->lattice, (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)nodes), shape);
-        float largest = 0;
-        for (int i = 0; i < vertices; i++) {
-            const float *d = shape[i];
-            largest = fmaxf(largest, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        }
-        float scale = largest > 0 ? 1 / sqrtf(largest) : 1;
-        for (int i = 0; i < vertices; i++) {
-            for (int c = 0; c < 3; c++) shape[i][c] *= scale;
-        }
-        fwrite(shape, sizeof *shape, (size_t)vertices, output.stream);
-    }
-    good = good && file_output_commit(&output, error);
-    free(shape);
-    if (!good) return false;
-    printf("%4s %12s\n", "mode", "Hz");
-    for (int k = 0; k < soft->modes.count; k++) printf("%4d %12.6g\n", k + 1, soft->modes.frequency[k]);
-    print_line(stdout, "%s: %d modes of %d vertices", job->output, soft->modes.count, vertices);
-    return true;
-}
-
 static bool simulate_mesh(struct job *job, struct error *error)
 {
     struct surface surface = {0};
@@ -153,23 +123,21 @@ static bool simulate_mesh(struct job *job, struct error *error)
                    "%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz",
                    job->mesh, soft.lattice.tet_count, soft.body.node_count, soft.pinned, soft.young,
                    soft.modes.count ? soft.modes.frequency[0] : 0);
-        if (!job->modal) {
-            printf("  seen most: mode %d, %.4g Hz, with %.0f %% of the motion\n", soft.seen + 1,
-                   soft_frequency(&soft), 100 * soft.share);
-            if (!job->drive_text && (job->by.shake.impulse || soft.pinned == 0))
-                printf("  swings freely, because of %s\n", job->by.shake.impulse ? "--impulse" : "--pin none");
-        }
+        printf("  seen most: mode %d, %.4g Hz, with %.0f %% of the motion\n", soft.seen + 1, soft_frequency(&soft),
+               100 * soft.share);
+        if (!job->drive_text && (job->by.shake.impulse || soft.pinned == 0))
+            printf("  swings freely, because of %s\n", job->by.shake.impulse ? "--impulse" : "--pin none");
         if (soft.lattice.repair[0]) print_line(stdout, "%s: %s", job->mesh, soft.lattice.repair);
         fflush(stdout);
         const double lowest = soft.modes.count ? soft.modes.frequency[0] : 0, period = 1 / soft_frequency(&soft);
-        if (!job->modal && period > job->by.seconds) {
+        if (period > job->by.seconds) {
             print_line(
                 stderr,
                 "%s: warning: %.4g s show less than a period, %.4g s, so analyze cannot find the frequency; choose a "
                 "longer time, of at most %d frames, or a stiffer body",
                 job->mesh, job->by.seconds, period, ANALYSIS_FRAMES_MAX);
         }
-        if (!job->modal && lowest < slow_warning * soft_frequency(&soft)) {
+        if (lowest < slow_warning * soft_frequency(&soft)) {
             print_line(stderr,
                        "%s: warning: the lowest mode, of %.2g Hz, is far below the %.2g Hz of the one that is seen "
                        "most; if it sways slowly, --pin more of it",
@@ -180,38 +148,33 @@ static bool simulate_mesh(struct job *job, struct error *error)
                        soft.unpinned_parts, soft.lattice.part_count);
         }
 
-        if (job->modal) {
-            good = write_modes(job, &soft, error);
-        } else {
-            struct base_drive *drive = &job->by.drive;
-            struct floor floor = {0};
-            if (drive->kind != DRIVE_NONE) { // it moves the base along the shake
-                memcpy(drive->direction, job->by.shake.direction, sizeof drive->direction);
-                drive->size = drive->kind == DRIVE_TRACK ? 1 : job->by.shake.amplitude * soft.size;
-                drive->seconds = job->by.seconds;
-                job->by.loads.drive = drive;
-            }
-            if (job->floor >= 0) {
-                floor_create(&floor, &soft.lattice, &surface, soft.bottom + job->floor, soft.young,
-                             job->by.soft.density);
-                job->by.loads.floor = &floor;
-            }
-            good = simulate_shake(job, &soft, &surface, error);
-            pool_free(&floor.pool);
-
-            // What analyze needs to know of the motion.
-            struct companion made = {
-                .frames = shaking_frames(&job->by), .vertices = surface.vertex_count, .fps = job->by.fps};
-            const double end = job->by.loads.drive ? drive_end(drive) : 0;
-            made.from = end < job->by.seconds ? end : 0;
-            made.world = job->world;
-            memcpy(made.shake, job->by.shake.direction, sizeof made.shake);
-            if (job->pin_text)
-                snprintf(made.pin, sizeof made.pin, "%s", job->pin_text);
-            else
-                snprintf(made.pin, sizeof made.pin, "%.6g", 0.05 * soft.height);
-            good = good && companion_write(job->output, &made, error);
+        struct base_drive *drive = &job->by.drive;
+        struct floor floor = {0};
+        if (drive->kind != DRIVE_NONE) { // it moves the base along the shake
+            memcpy(drive->direction, job->by.shake.direction, sizeof drive->direction);
+            drive->size = drive->kind == DRIVE_TRACK ? 1 : job->by.shake.amplitude * soft.size;
+            drive->seconds = job->by.seconds;
+            job->by.loads.drive = drive;
         }
+        if (job->floor >= 0) {
+            floor_create(&floor, &soft.lattice, &surface, soft.bottom + job->floor, soft.young, job->by.soft.density);
+            job->by.loads.floor = &floor;
+        }
+        good = simulate_shake(job, &soft, &surface, error);
+        pool_free(&floor.pool);
+
+        // What analyze needs to know of the motion.
+        struct companion made = {
+            .frames = shaking_frames(&job->by), .vertices = surface.vertex_count, .fps = job->by.fps};
+        const double end = job->by.loads.drive ? drive_end(drive) : 0;
+        made.from = end < job->by.seconds ? end : 0;
+        made.world = job->world;
+        memcpy(made.shake, job->by.shake.direction, sizeof made.shake);
+        if (job->pin_text)
+            snprintf(made.pin, sizeof made.pin, "%s", job->pin_text);
+        else
+            snprintf(made.pin, sizeof made.pin, "%.6g", 0.05 * soft.height);
+        good = good && companion_write(job->output, &made, error);
         good = good && obj_write(job->rest, &surface, error);
         if (good) print_line(stdout, "%s: the mesh at rest", job->rest);
         soft_free(&soft);
@@ -225,8 +188,6 @@ static bool simulate_mesh(struct job *job, struct error *error)
 static const char *check_job(struct job *job)
 {
     if (!job->output) return "-o FILE is missing: name the file to write";
-    if (job->modal && !path_has_end(job->output, ".npy"))
-        return "--output: expected a name ending in .npy for --modal";
     if (!path_has_end(job->output, ".npy") && !path_has_end(job->output, ".pc2"))
         return "--output: expected a name ending in .npy or .pc2";
     if (!companion_path(job->output, ".rest.obj", job->rest)) return "--output: the name is too long";
@@ -234,25 +195,22 @@ static const char *check_job(struct job *job)
         return "--shake: expected up, side, front or a vector x,y,z";
     if (job->pin_text && !region_parse(job->pin_text, &job->by.soft.pin)) return "--pin: expected " REGION_FORMS;
     if (job->pin_text && strlen(job->pin_text) >= COMPANION_PIN) return "--pin: expected fewer than 128 characters";
-    shaking_drive(&job->by, DRIVE_NONE);
-    if (!job->modal) {                                                         // an unknown name of a drive is a file
-        static const char *const kinds[] = {"none", "sine", "burst", "sweep"}; // as in enum drive_kind
-        const bool impulse = job->by.shake.impulse, unpinned = job->by.soft.pin.kind == REGION_NONE;
-        const bool adjusted = job->by.drive.frequency > 0 || job->world;
-        enum drive_kind kind = DRIVE_NONE;
-        if (!job->drive_text && adjusted) job->drive_text = "burst";
-        const char *text = job->drive_text ? job->drive_text : impulse || unpinned ? "none" : "burst";
-        while (kind < DRIVE_TRACK && strcmp(text, kinds[kind]) != 0) kind++;
-        shaking_drive(&job->by, kind);
-        if (kind == DRIVE_NONE && adjusted) return "--drive-frequency and --world need a drive, got none";
-        if (kind != DRIVE_NONE && impulse) return "--impulse and a drive both start the motion: give one";
-        if (kind != DRIVE_NONE && unpinned) return "--drive moves the pinned part, but --pin none pins nothing";
-        if (kind == DRIVE_TRACK && !path_has_end(text, ".csv"))
-            return "--drive: expected burst, sine, sweep, a track's FILE.csv or none";
-        if (kind == DRIVE_TRACK && (isfinite(job->by.amplitude) || job->by.drive.frequency > 0))
-            return "--drive: a track has its own size in metres and time: leave out --amplitude and "
-                   "--drive-frequency";
-    }
+    static const char *const kinds[] = {"none", "sine", "burst", "sweep"}; // as in enum drive_kind
+    const bool impulse = job->by.shake.impulse, unpinned = job->by.soft.pin.kind == REGION_NONE;
+    const bool adjusted = job->by.drive.frequency > 0 || job->world;
+    enum drive_kind kind = DRIVE_NONE;
+    if (!job->drive_text && adjusted) job->drive_text = "burst";
+    const char *text = job->drive_text ? job->drive_text : impulse || unpinned ? "none" : "burst";
+    while (kind < DRIVE_TRACK && strcmp(text, kinds[kind]) != 0) kind++;
+    shaking_drive(&job->by, kind);
+    if (kind == DRIVE_NONE && adjusted) return "--drive-frequency and --world need a drive, got none";
+    if (kind != DRIVE_NONE && impulse) return "--impulse and a drive both start the motion: give one";
+    if (kind != DRIVE_NONE && unpinned) return "--drive moves the pinned part, but --pin none pins nothing";
+    if (kind == DRIVE_TRACK && !path_has_end(text, ".csv"))
+        return "--drive: expected burst, sine, sweep, a track's FILE.csv or none";
+    if (kind == DRIVE_TRACK && (isfinite(job->by.amplitude) || job->by.drive.frequency > 0))
+        return "--drive: a track has its own size in metres and time: leave out --amplitude and "
+               "--drive-frequency";
 
     return shaking_check(&job->by);
 }
@@ -260,10 +218,8 @@ static const char *check_job(struct job *job)
 int command_simulate(int argc, char **argv)
 {
     struct job job = {.opening = {.scale = 1}, .by = shaking_default(), .shake_text = "up", .floor = -1};
-    int modes = 0;
     struct option_spec options[OPTIONS_MOST + 1] = {
-        {"-o, --output FILE",
-         "required: NAME.npy or NAME.pc2 (--modal: .npy); beside it NAME.rest.obj, NAME.simulation.json",
+        {"-o, --output FILE", "required: NAME.npy or NAME.pc2; beside it NAME.rest.obj, NAME.simulation.json",
          OPTION_OUTPUT, &job.output, 0, 0},
         MESH_OPTIONS(&job.opening),
         {"--shake DIR", "up, side, front or a vector x,y,z (up)", OPTION_TEXT, &job.shake_text, 0, 0},
@@ -288,7 +244,6 @@ int command_simulate(int argc, char **argv)
         {"--gravity G", "gravity in m/s^2 (0); a pinned body starts at rest under it", OPTION_REAL,
          &job.by.loads.gravity, 0, 1e4},
         {"--floor H", "a smooth floor at H above the lowest point", OPTION_REAL, &job.floor, 0, 1e6},
-        {"--modal K", "write the K lowest normal modes instead of a shake", OPTION_INT, &modes, 1, 200},
     };
     shaking_options(&job.by, options);
     const struct usage usage = {
@@ -300,10 +255,8 @@ int command_simulate(int argc, char **argv)
     };
     const int result = options_parse(&usage, argc, argv, &job.mesh);
     if (result != OPTIONS_RUN) return result;
-    job.modal = modes > 0;
     job.by.name = job.mesh;
-    if (job.modal) job.by.soft.modes = modes;
-    if (!job.modal) job.by.soft.shake = &job.by.shake;
+    job.by.soft.shake = &job.by.shake;
     const char *wrong = check_job(&job);
     if (wrong) return options_wrong(&usage, "%s", wrong);
     struct error error;

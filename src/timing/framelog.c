@@ -3,6 +3,7 @@
 #include "base/embedded.h"
 #include "base/file.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -49,17 +50,6 @@ static double column_value(const struct column *column, const struct frame_row *
     double value;
     memcpy(&value, field, sizeof value);
     return value;
-}
-
-static int by_number(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void statistics_sort(double *values, int count)
-{
-    if (count > 1) qsort(values, (size_t)count, sizeof *values, by_number);
 }
 
 double statistics_quantile(const double *sorted, int count, double p)
@@ -115,7 +105,7 @@ static void summary_print(const double *kept, int rows, FILE *out)
         const struct column *column = &timing_columns[columns[c]];
         const int count = column_values(kept, rows, columns[c], values);
         if (count == 0) continue;
-        statistics_sort(values, count);
+        qsort(values, (size_t)count, sizeof *values, maths_compare);
         fprintf(out, "%-18s", column->name);
         for (int i = 0; i < 4; i++)
             fprintf(out, " %10.*f", column->decimals > 1 ? 3 : 1, statistics_quantile(values, count, at[i]));
@@ -129,7 +119,7 @@ static void summary_print(const double *kept, int rows, FILE *out)
                 over.frames, rows, 100.0 * over.frames / rows, over.longest);
     }
     const int intervals = column_values(kept, rows, COLUMN_FRAME_INTERVAL_MS, values);
-    statistics_sort(values, intervals);
+    qsort(values, (size_t)intervals, sizeof *values, maths_compare);
     if (intervals >= ENOUGH_FOR_LOW)
         fprintf(out, "%-18s %.1f fps\n", "1 % low", 1000 / statistics_quantile(values, intervals, 0.99));
     free(values);

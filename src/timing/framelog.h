@@ -92,9 +92,6 @@ enum {
 
 extern const struct column timing_columns[COLUMN_COUNT];
 
-/// Sorts ascending; no NaN among them.
-void statistics_sort(double *values, int count);
-
 /// The quantile p in 0 … 1 of sorted values, between two of them by linear interpolation at p·(count − 1). NAN for none.
 double statistics_quantile(const double *sorted, int count, double p);
 

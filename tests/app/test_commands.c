@@ -318,7 +318,6 @@ static const struct {
     {"simulate --damping", "-0.01", "0", "1", "1.01"},
     {"simulate --gravity", "-0.1", "0", "10000", "10000.1"},
     {"simulate --floor", "-0.1", "0", "1000000", "1000001"},
-    {"simulate --modal", "0", "1", "200", "201"},
 };
 
 /// Calls a line again and again; returns 1 and says what is wrong unless each is refused with these words.
@@ -549,7 +548,6 @@ static const struct {
      "--drive: expected burst, sine, sweep, a track's FILE.csv or none"},
     {2, "simulate box.obj", "-o FILE is missing"},
     {2, "simulate box.obj -o x.abc", "expected a name ending in .npy or .pc2"},
-    {2, "simulate box.obj --modal 2 -o x.pc2", "expected a name ending in .npy for --modal"},
     {3, "simulate box.obj --tets 60 -o no/such/x.npy", "no/such/x.npy"},
     {0, "simulate box.obj " QUICK "--soft map.npy -o y.npy", "y.npy: 6 frames of 8 vertices at 24 fps"},
     {0, "simulate open.obj " QUICK "-o y.npy",

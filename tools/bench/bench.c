@@ -2,6 +2,7 @@
 #include "bench/bench.h"
 #include "base/error.h"
 #include "base/progress.h"
+#include "maths/maths.h"
 #include "timing/framelog.h"
 #include <math.h>
 #include <stdarg.h>
@@ -41,7 +42,7 @@ bool bench_goes_on(int runs, double end) { return runs < MAX_RUNS && (runs < MIN
 
 void bench_sum_up(struct bench *bench, int runs, double samples, struct bench_result *result)
 {
-    statistics_sort(bench->times, runs);
+    qsort(bench->times, (size_t)runs, sizeof *bench->times, maths_compare);
     result->ns_per_sample = 1e9 * bench->times[0] / samples;
     result->p50_us = 1e6 * statistics_quantile(bench->times, runs, 0.5);
     result->p99_us = 1e6 * statistics_quantile(bench->times, runs, 0.99);

@@ -3,6 +3,7 @@
 /// weights until the quantile's share of the total is reached.
 #include "regress/bootstrap.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include "timing/framelog.h"
 #include <math.h>
 #include <stdint.h>
@@ -63,7 +64,7 @@ struct estimate bootstrap(int segments, bootstrap_quantity *quantity, const void
         const double value = quantity(weight, user);
         if (!isnan(value)) values[count++] = value;
     }
-    statistics_sort(values, count);
+    qsort(values, (size_t)count, sizeof *values, maths_compare);
     result.low = statistics_quantile(values, count, 0.005);
     result.high = statistics_quantile(values, count, 0.995);
     free(weight);
