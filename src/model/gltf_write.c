@@ -358,7 +358,8 @@ static json_t *make_primitives(struct gltf_file *file, const struct gltf_shape *
 
 // --- coordinates
 
-json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *c, double scale)
+/// What the extras of a mesh say of a coordinate whose targets are scaled up.
+static json_t *coordinate_json(struct gltf_file *file, const struct coordinate *c, double scale)
 {
     json_t *known = json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency, "damping",
                               c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
@@ -561,7 +562,7 @@ bool coordinates_write(const char *path, const struct gltf *gltf, int mesh, cons
         json_t *known = json_object_get(extras, "wiggly");
         if (!json_is_object(known)) gltf_set(&file, extras, "wiggly", known = json_object());
         for (int k = 0; k < count; k++)
-            gltf_append_to(&file, known, "coordinates", gltf_coordinate_json(&file, &coordinates[k], 1));
+            gltf_append_to(&file, known, "coordinates", coordinate_json(&file, &coordinates[k], 1));
         done = gltf_file_save(&file, path, error);
     }
     free(r.clips);
@@ -626,7 +627,7 @@ json_t *gltf_shape_json(struct gltf_file *file, const struct gltf_shape *shape)
         for (int t = 0; t < shape->target_count; t++) gltf_append(file, names, json_string(shape->targets[t].name));
         for (int i = 0, first = 0; i < shape->coordinate_count; i++) {
             const struct coordinate *c = shape->coordinates[i];
-            gltf_append(file, coordinates, gltf_coordinate_json(file, c, (double)shape->targets[first].scale));
+            gltf_append(file, coordinates, coordinate_json(file, c, (double)shape->targets[first].scale));
             first += coordinate_parts(c);
         }
         gltf_set(file, mesh, "extras",

@@ -81,9 +81,6 @@ bool gltf_file_write(struct gltf_file *file, bool binary, FILE *out, struct erro
 bool gltf_file_save(struct gltf_file *file, const char *path, struct error *error);
 void gltf_file_free(struct gltf_file *file);
 
-/// What the extras of a mesh say of a coordinate whose targets are scaled up.
-json_t *gltf_coordinate_json(struct gltf_file *file, const struct coordinate *coordinate, double scale);
-
 // --- the morph targets of a mesh that the file has
 //
 // The mesh gets a new list of targets: those before times a scale, by weights divided by it, and new ones. Weights at rest and in all clips follow.

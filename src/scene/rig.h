@@ -173,14 +173,7 @@ struct pin {
     struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
 };
 
-/// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
-#define RIG_KIND_LIST(KIND)                                                                                          \
-    KIND(RIG_TAIL, tail)                                                                                             \
-    KIND(RIG_MODEL, model) KIND(RIG_CHAIN, chain)
-
-#define RIG_CONSTANT(constant, name) constant,
-enum rig_kind { RIG_KIND_LIST(RIG_CONSTANT) RIG_KINDS };
-#undef RIG_CONSTANT
+enum rig_kind { RIG_TAIL, RIG_MODEL, RIG_CHAIN, RIG_KINDS };
 
 enum { RIG_MAX_INPUTS = 64 }; ///< of a rig of any kind
 

@@ -306,8 +306,6 @@ enum ui_line ui_line(struct ui *ui, struct rect r, const char *name);
 bool ui_text_field(struct ui *ui, struct rect r, const char *name);
 
 void ui_text_set(struct ui_text *text, const char *utf8);
-/// Ctrl+A.
-bool ui_selects_all(const struct event *event);
 /// Handles a key or character; false if not used. `changed` may be NULL.
 bool ui_text_event(struct ui_text *text, const struct event *event, bool *changed);
 

@@ -42,7 +42,8 @@ static void erase(struct ui_text *text, int from, int to)
     text->caret = from;
 }
 
-bool ui_selects_all(const struct event *event)
+/// Ctrl+A.
+static bool selects_all(const struct event *event)
 {
     return event->kind == EVENT_KEY && event->action != ACTION_RELEASE && event->key == 'A' &&
            event->mods == MOD_CTRL;
@@ -67,7 +68,7 @@ bool ui_text_event(struct ui_text *text, const struct event *event, bool *change
             text->length += n;
             text->caret += n;
         }
-    } else if (ui_selects_all(event)) {
+    } else if (selects_all(event)) {
         text->all = text->length > 0;
     } else if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE && !(event->mods & MOD_CTRL)) {
         const bool all = text->all;
@@ -169,7 +170,7 @@ static enum ui_line type_event(struct ui *ui, uint32_t id, struct rect field)
     }
     // All keys but F keys and Ctrl chords other than Ctrl+A belong to the text.
     const bool is_function = event->key >= KEY_F1 && event->key <= KEY_F12;
-    const bool is_own = event->mods & MOD_CTRL ? ui_selects_all(event) : !is_function;
+    const bool is_own = event->mods & MOD_CTRL ? selects_all(event) : !is_function;
     if (event->kind != EVENT_TEXT && !(event->kind == EVENT_KEY && is_own)) return UI_LINE_NONE;
     ui->used = true;
     bool press = event->kind == EVENT_KEY && event->action == ACTION_PRESS, changed;
