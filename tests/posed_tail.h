@@ -13,15 +13,15 @@ static inline void pose_tail_in(struct models *models, const struct tail *tail, 
     static struct rig_pose posed;
     struct rig *rigs[] = {&rig};
     struct document document = {.rigs = rigs, .rig_count = 1};
-    const struct posing posing = {.document = &document, .models = models, .look = look};
     struct by_hand hand = {0};
+    const struct posing posing = {.document = &document, .models = models, .look = look, .by_hand = &hand};
     rig.kind = RIG_TAIL;
     rig.tail = *tail;
     if (values) memcpy(hand.input, values, (size_t)tail->channel_count * sizeof *values);
     if (models) models_follow(models, &document);
-    assert_true(rig_pose(&posing, 0, 0, &hand, &posed));
+    assert_true(rig_pose(&posing, 0, 0, &posed));
     *pose = posed.strand;
-    if (fox) assert_true(rig_pose_body(&posing, 0, 0, &hand, fox));
+    if (fox) assert_true(rig_pose_body(&posing, 0, 0, fox));
 }
 
 static inline void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose)

@@ -290,7 +290,7 @@ static void write_tail(const char *folder)
     FILE *csv = create(folder, "figure6", "csv");
     fputs("frame,joint,x,y,z\n", csv);
     for (int sample = 0; sample < s.evaluation.samples; sample++) {
-        rig_pose(&posing, 0, sample, NULL, &pose);
+        rig_pose(&posing, 0, sample, &pose);
         for (int j = 0; j < pose.strand.count; j++) {
             const float *at = &pose.strand.matrix[j][12];
             fprintf(csv, "%g,%d,%.9g,%.9g,%.9g\n", document_frame(s.document, sample), j, at[0], at[1], at[2]);
@@ -301,7 +301,7 @@ static void write_tail(const char *folder)
         struct frame f = {
             wide * (i % PER_ROW) + 30, TOP + i / PER_ROW * (ROW + GAP), wide - 60, ROW, -0.35, 2.15, -1.1, 1.1};
         char text[32];
-        rig_pose(&posing, 0, 24 + i * EVERY, NULL, &pose);
+        rig_pose(&posing, 0, 24 + i * EVERY, &pose);
         for (int j = 0; j < pose.strand.count; j++) {
             x[j] = pose.strand.matrix[j][14];
             z[j] = pose.strand.matrix[j][12];

@@ -273,7 +273,7 @@ double range_position(const struct export_range *range, int key)
 bool range_pose(const struct export_range *range, int rig, int key, struct rig_pose *pose, struct error *error)
 {
     const int body = rig_body(range->posing->document, rig);
-    if (rig_pose_body(range->posing, body, range_position(range, key), NULL, pose)) return true;
+    if (rig_pose_body(range->posing, body, range_position(range, key), pose)) return true;
     return fail(error, ERROR_INPUT, "rigs[%d]: its model could not be read", rig);
 }
 

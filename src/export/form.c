@@ -39,7 +39,7 @@ static void tail_columns(const struct export_range *range, int rig, const struct
     (void)pose;
     if (!strand_find(range->posing, rig_body(document, rig), rig, &strand)) return;
     wiggly_value values[RIG_MAX_INPUTS];
-    posing_values(range->posing, rig, range_position(range, key), NULL, values);
+    posing_values(range->posing, rig, range_position(range, key), values);
     for (int c = 0; c < strand.channel_count; c++) {
         const struct channel *channel = &strand.channels[c];
         const wiggly_value value = values[c];

@@ -345,7 +345,7 @@ static bool set_strength(struct document *document, const struct models *models,
     for (int s = 0; s < evaluation.samples; s++) {
         wiggly_value values[RIG_MAX_INPUTS];
         double turn[2] = {0};
-        posing_values(&posing, rig, s, NULL, values);
+        posing_values(&posing, rig, s, values);
         for (int i = 0; i < 2 * bones; i++)
             turn[i % 2] += channel_bend(&chain->channels[i % 2], values[i % 2], i / 2, bones, LOOK_WIGGLY);
         largest = fmax(largest, DEGREES * maths_hypot(turn[0], turn[1]));

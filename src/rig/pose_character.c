@@ -100,7 +100,7 @@ bool character_find_pin(const struct posing *posing, const struct pin_query *que
     struct gltf_pose *pose = posing_clip(posing, query->rig, sample, POSE_UNSEEN);
     const float *of = pose->weights + gltf->nodes[figure->character.node].first_weight;
     const struct morph clip = figure_morph(figure, of);
-    posing_bend(posing, query->rig, sample, NULL, pose, &posed);
+    posing_bend(posing, query->rig, sample, pose, &posed);
     *point = (struct pin_point){.is_linear = read == rint(read)}; // in x of that sample
     for (int r = -1; (r = document_next_chain(document, query->rig, r)) >= 0;) {
         for (int i = 0; i < query->count; i++)
@@ -117,7 +117,7 @@ bool character_find_pin(const struct posing *posing, const struct pin_query *que
         shape[k] = (double)figure->character.position[vertex][k] + (double)way[k];
     }
     point->slack = SLACK * point->size;
-    posing_values(posing, query->rig, sample, NULL, values);
+    posing_values(posing, query->rig, sample, values);
     for (int k = 0; k < figure->character.coordinate_count; k++) {
         const struct coordinate *coordinate = &figure->character.coordinates[k];
         double z[2], weights[COORDINATE_PARTS];
@@ -130,7 +130,7 @@ bool character_find_pin(const struct posing *posing, const struct pin_query *que
 
     // Carried into the world.
     double root[12], carried[4][3];
-    posing_root(posing, query->rig, NULL, root);
+    posing_root(posing, query->rig, root);
     for (int j = 0; j < 4; j++) {
         for (int k = 0; k < 3; k++) {
             carried[j][k] = j == 3 ? root[9 + k] : 0;
@@ -267,7 +267,7 @@ static bool lowest_posed(const struct posing *posing, int rig, double ceiling, s
     for (int i = 0; i < posing->evaluation->samples; i++) {
         struct rig_pose posed;
         float height = (float)ceiling;
-        if (!rig_pose(posing, rig, i + delay, NULL, &posed)) return false;
+        if (!rig_pose(posing, rig, i + delay, &posed)) return false;
         const int vertex = figure_lowest(&posed.model, &height);
         low[i] = (struct low_point){vertex < 0 ? ceiling : (double)height, vertex};
     }

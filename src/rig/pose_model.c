@@ -47,7 +47,7 @@ struct gltf_pose *posing_clip(const struct posing *posing, int rig, double posit
 }
 
 /// The lowest point at rest is at the rig's position.
-void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12])
+void posing_root(const struct posing *posing, int rig, double root[12])
 {
     const struct document *document = posing->document;
     const struct model_rig *model = &document->rigs[rig]->model;
@@ -56,13 +56,13 @@ void posing_root(const struct posing *posing, int rig, const struct by_hand *by_
     const double c = model->scale * maths_cos(turn), s = model->scale * maths_sin(turn);
     const double columns[9] = {c, 0, -s, 0, model->scale, 0, s, 0, c};
     memcpy(root, columns, sizeof columns);
-    posing_base(posing, rig, by_hand, root + 9);
+    posing_base(posing, rig, root + 9);
     for (int k = 0; k < 3; k++) root[9 + k] += model->position[k];
     root[10] -= model->scale * (double)imported->gltf.lo[1];
 }
 
-void posing_bend(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                 struct gltf_pose *pose, struct rig_pose *posed)
+void posing_bend(const struct posing *posing, int rig, double position, struct gltf_pose *pose,
+                 struct rig_pose *posed)
 {
     const struct document *document = posing->document;
     wiggly_value values[RIG_MAX_INPUTS];
@@ -70,7 +70,7 @@ void posing_bend(const struct posing *posing, int rig, double position, const st
     double root[12];
     for (int r = 0; r < document->rig_count; r++) {
         if (!strand_find(posing, rig, r, &strand)) continue;
-        posing_values(posing, r, position, NULL, values);
+        posing_values(posing, r, position, values);
         strand_bend(&strand, values, posing->look, pose);
     }
     posed->kind = RIG_MODEL;
@@ -79,12 +79,12 @@ void posing_bend(const struct posing *posing, int rig, double position, const st
                                        .pose = pose,
                                        .ground = (float)document->rigs[rig]->model.position[1],
                                        .figure = models_figure(posing->models, document, rig)};
-    posing_root(posing, rig, by_hand, root);
+    posing_root(posing, rig, root);
     gltf_pose_world(posed->model.gltf, pose);
     const struct figure *figure = posed->model.figure;
     if (figure) {
         float *weights = pose->weights + posed->model.gltf->nodes[figure->character.node].first_weight;
-        posing_values(posing, rig, position, by_hand, values);
+        posing_values(posing, rig, position, values);
         pose_character(&document->rigs[rig]->model, figure, values, posing->look, weights);
         posed->model.morph = figure_morph(figure, weights);
     }

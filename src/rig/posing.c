@@ -4,25 +4,24 @@
 #include <string.h>
 
 /// Motion of a rig by hand.
-static void add_hands(const struct posing *posing, int rig, const struct by_hand *by_hand, struct by_hand *sum)
+static void add_hands(const struct posing *posing, int rig, struct by_hand *sum)
 {
-    *sum = by_hand ? *by_hand : (struct by_hand){0};
+    *sum = posing->by_hand && rig == posing->held ? *posing->by_hand : (struct by_hand){0};
     if (posing->move) posing->move(posing->context, rig, sum);
 }
 
-void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3])
+void posing_base(const struct posing *posing, int rig, double base[3])
 {
     struct by_hand sum;
-    add_hands(posing, rig, by_hand, &sum);
+    add_hands(posing, rig, &sum);
     memcpy(base, sum.base, sizeof sum.base);
 }
 
-void posing_values(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
-                   wiggly_value values[RIG_MAX_INPUTS])
+void posing_values(const struct posing *posing, int index, double position, wiggly_value values[RIG_MAX_INPUTS])
 {
     const struct rig *rig = posing->document->rigs[index];
     struct by_hand sum;
-    add_hands(posing, index, by_hand, &sum);
+    add_hands(posing, index, &sum);
     int count;
     const struct channel *channels = rig_channels(rig, &count);
     const int inputs = rig_input_count(rig);
@@ -38,24 +37,21 @@ void posing_values(const struct posing *posing, int index, double position, cons
     }
 }
 
-bool rig_pose(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
-              struct rig_pose *pose)
+bool rig_pose(const struct posing *posing, int index, double position, struct rig_pose *pose)
 {
     if (index < 0 || index >= posing->document->rig_count) return false;
     pose->kind = posing->document->rigs[index]->kind;
-    if (pose->kind == RIG_TAIL) return tail_pose(posing, index, position, by_hand, pose, NULL);
-    if (pose->kind == RIG_CHAIN) return chain_pose(posing, index, position, by_hand, &pose->strand);
+    if (pose->kind == RIG_TAIL) return tail_pose(posing, index, position, pose, NULL);
+    if (pose->kind == RIG_CHAIN) return chain_pose(posing, index, position, &pose->strand);
     struct gltf_pose *clip = posing_clip(posing, index, position, posing->memory);
-    if (clip) posing_bend(posing, index, position, by_hand, clip, pose);
+    if (clip) posing_bend(posing, index, position, clip, pose);
     return clip;
 }
 
-bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                   struct rig_pose *pose)
+bool rig_pose_body(const struct posing *posing, int rig, double position, struct rig_pose *pose)
 {
     const bool is_tail = posing->document->rigs[rig]->kind == RIG_TAIL;
-    return is_tail ? tail_pose(posing, rig, position, by_hand, NULL, pose)
-                   : rig_pose(posing, rig, position, by_hand, pose);
+    return is_tail ? tail_pose(posing, rig, position, NULL, pose) : rig_pose(posing, rig, position, pose);
 }
 
 // --- for the scene

@@ -22,8 +22,10 @@ struct posing {
     const struct evaluation *evaluation; ///< NULL: all splines are 0
     const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
-    bool at_rest;            ///< clips do not play
-    enum pose_memory memory; ///< that takes a character's pose, until the next one there
+    bool at_rest;                  ///< clips do not play
+    enum pose_memory memory;       ///< that takes a character's pose, until the next one there
+    const struct by_hand *by_hand; ///< moves the rig `held` besides; NULL: nothing does
+    int held;
     /// Adds a rig's motion by hand to `hand`; NULL: there is none.
     void (*move)(const void *context, int rig, struct by_hand *hand);
     const void *context; ///< for `move`
@@ -38,18 +40,14 @@ struct rig_pose {
     };
 };
 
-/// Poses a rig of the document at a position in samples; `by_hand` (may be NULL) moves it besides what `posing` says. false if there is no such rig, or its model
-/// could not be read. Allocates nothing.
-bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-              struct rig_pose *pose);
+/// Poses a rig of the document at a position in samples. false if there is no such rig, or its model could not be read. Allocates nothing.
+bool rig_pose(const struct posing *posing, int rig, double position, struct rig_pose *pose);
 
 /// The same for the model that a rig shows: a tail's fox, or a character.
-bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                   struct rig_pose *pose);
+bool rig_pose_body(const struct posing *posing, int rig, double position, struct rig_pose *pose);
 
 /// Poses a tail and its fox at once; either may be NULL. false if the fox is asked for but missing.
-bool tail_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-               struct rig_pose *posed, struct rig_pose *fox);
+bool tail_pose(const struct posing *posing, int rig, double position, struct rig_pose *posed, struct rig_pose *fox);
 
 /// How a model rig plays a clip of its file: from its first key, in seconds, for a length; then again, or no more.
 struct clip_play {
@@ -66,8 +64,7 @@ void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 
 /// The values of a rig's inputs, read its offset earlier, including motion by hand. Of PART_DISPLACEMENT y is how far settling knots have moved
 /// the equilibrium, without what that follows.
-void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                   wiggly_value values[RIG_MAX_INPUTS]);
+void posing_values(const struct posing *posing, int rig, double position, wiggly_value values[RIG_MAX_INPUTS]);
 
 /// The angle, radians, by which a channel bends joint n of `joints` (eq. 27): gain·(y + Re(e^{−j·lag} x)) of its value. LOOK_STIFF takes
 /// every lag as 0.
@@ -107,18 +104,17 @@ double character_weigh(const struct posing *posing, int rig, int spline);
 static inline double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
 
 /// Where the joints of a chain are. False if its model is missing.
-bool chain_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                struct pose *strand);
+bool chain_pose(const struct posing *posing, int rig, double position, struct pose *strand);
 
 /// The places of its bones in its clip alone, or at rest, in the given memory; NULL if there is no model.
 struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, enum pose_memory memory);
 
 /// Bends, moves and places a model on top of its clip's pose, as rig_pose_body() does.
-void posing_bend(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                 struct gltf_pose *pose, struct rig_pose *posed);
+void posing_bend(const struct posing *posing, int rig, double position, struct gltf_pose *pose,
+                 struct rig_pose *posed);
 
 /// The place of a character: columns and place of its space in the world.
-void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);
+void posing_root(const struct posing *posing, int rig, double root[12]);
 
 /// Whether a clip loops and fills the scene's range once or several times.
 bool posing_clip_loops(const struct document *document, const struct clip_play *play);
@@ -128,7 +124,7 @@ bool posing_clip_loops(const struct document *document, const struct clip_play *
 double posing_clip_time(const struct document *document, double position, const struct clip_play *play);
 
 /// Its displacement by hand, metres.
-void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);
+void posing_base(const struct posing *posing, int rig, double base[3]);
 
 /// Like model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);

@@ -232,7 +232,7 @@ static double limb_moved(const struct tail *tail, const wiggly_value *values, en
 
 /// The base of a tail, metres of the world, and the motion of the body's parts.
 static struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
-                              const struct by_hand *by_hand, double base[3])
+                              double base[3])
 {
     const struct tail *tail = &posing->document->rigs[rig]->tail;
     const enum look look = posing->look;
@@ -248,7 +248,7 @@ static struct limbs tail_base(const struct posing *posing, int rig, double posit
 
     double by[3];
     limbs_base(stretch, tail->length / (double)FOX_TAIL_LENGTH, base);
-    posing_base(posing, rig, by_hand, by);
+    posing_base(posing, rig, by);
     for (int k = 0; k < 3; k++) {
         const struct param *param = &tail->position[k];
         const wiggly_value value = evaluation_at(posing->evaluation, param->track, position);
@@ -268,8 +268,7 @@ static void path_apply(const double m[9], const double scale[3], const double v[
         out[k] = m[k] * scale[0] * v[0] + m[3 + k] * scale[1] * v[1] + m[6 + k] * scale[2] * v[2];
 }
 
-bool path_find(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-               struct path *path)
+bool path_find(const struct posing *posing, int rig, double position, struct path *path)
 {
     const struct document *document = posing->document;
     const int body = rig_body(document, rig);
@@ -289,8 +288,8 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
                                                 .rotation = {0, 0, 0, 1},
                                                 .scale = {1, 1, 1}};
         memcpy(path->tip, (const double[]){0, 0, segment}, sizeof path->tip);
-        posing_values(posing, rig, position, by_hand, values);
-        path->limbs = tail_base(posing, rig, position, values, by_hand, root + 9);
+        posing_values(posing, rig, position, values);
+        path->limbs = tail_base(posing, rig, position, values, root + 9);
     } else {
         // The nodes from the root to the last bone, posed by the clip.
         const struct gltf *gltf = &strand.imported->gltf;
@@ -314,12 +313,12 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
         const mat3s inward = into_bone(strand.imported, last);
         const vec3s tip = glms_mat3_mulv(inward, last_way(strand.imported, &strand.bones));
         for (int k = 0; k < 3; k++) path->tip[k] = (double)tip.raw[k];
-        posing_root(posing, body, NULL, root);
+        posing_root(posing, body, root);
     }
     path->first = path->count - strand.joints;
     for (int r = 0; r < document->rig_count; r++) {
         if (!strand_find(posing, body, r, &strand)) continue;
-        posing_values(posing, r, position, r == rig ? by_hand : NULL, values);
+        posing_values(posing, r, position, values);
         for (int i = 0, n = 0; i < path->count && n < strand.joints; i++) {
             struct path_node *node = &path->nodes[i];
             if (node->node != strand.bones.node[n]) continue;
@@ -410,24 +409,22 @@ static void set_strand(const struct path *path, struct pose *strand)
     }
 }
 
-bool chain_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                struct pose *strand)
+bool chain_pose(const struct posing *posing, int rig, double position, struct pose *strand)
 {
     struct path path;
-    if (!path_find(posing, rig, position, by_hand, &path)) return false;
+    if (!path_find(posing, rig, position, &path)) return false;
     set_strand(&path, strand);
     return true;
 }
 
-bool tail_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-               struct rig_pose *posed, struct rig_pose *fox)
+bool tail_pose(const struct posing *posing, int rig, double position, struct rig_pose *posed, struct rig_pose *fox)
 {
     const struct tail *tail = &posing->document->rigs[rig]->tail;
     const double scale = tail->length / (double)FOX_TAIL_LENGTH;
     const double height = (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) * tail->length;
     const float ground = tail->position[1].track < 0 ? (float)(tail->position[1].value - height) : 0.0f;
     struct path path;
-    if (!path_find(posing, rig, position, by_hand, &path)) return false;
+    if (!path_find(posing, rig, position, &path)) return false;
     if (posed) {
         posed->kind = RIG_TAIL;
         posed->strand.ground = ground;
@@ -491,7 +488,7 @@ bool strand_find_pin(const struct posing *posing, const struct pin_query *query,
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
     struct path path;
-    if (!path_find(posing, rig, sample, NULL, &path) || joint >= path.count - path.first) return false;
+    if (!path_find(posing, rig, sample, &path) || joint >= path.count - path.first) return false;
     const double length = path_length(&path, path.count - path.first);
     *point = (struct pin_point){.size = length, .slack = SLACK * length, .reach = path_length(&path, joint + 1)};
     memcpy(point->at, path_end(&path, joint), sizeof point->at);
@@ -500,14 +497,14 @@ bool strand_find_pin(const struct posing *posing, const struct pin_query *query,
     for (int r = 0; query->count > 0 && r < document->rig_count; r++) {
         const bool at_once = document->rigs[r]->offset == document->rigs[rig]->offset; // others are as they are
         if (!at_once || !strand_find(posing, body, r, &strand)) continue;
-        posing_values(posing, r, sample, NULL, values);
+        posing_values(posing, r, sample, values);
         add_bends(&path, joint, &strand, values, query, c);
         if (r != body) continue;
 
         // The motion of a tail's base, and how the body's stretch moves it; pinning_add_channel() takes percent for degrees.
         const struct tail *tail = &document->rigs[rig]->tail;
         double way[3];
-        const struct limbs limbs = tail_base(posing, rig, 0, values, NULL, way);
+        const struct limbs limbs = tail_base(posing, rig, 0, values, way);
         limbs_base_slope((double)limbs.stretch, tail->length / (double)FOX_TAIL_LENGTH, way);
         for (int k = 0; k < 3; k++) way[k] *= 1.8 / 3.14159265358979323846;
         for (int s = 0; s < query->count; s++) {
@@ -530,8 +527,7 @@ double strand_weigh(const struct posing *posing, int rig, int spline)
     double sum = 0;
     struct strand strand;
     struct path path;
-    if (!path_find(posing, rig, 0, NULL, &path) ||
-        !strand_find(posing, rig_body(posing->document, rig), rig, &strand))
+    if (!path_find(posing, rig, 0, &path) || !strand_find(posing, rig_body(posing->document, rig), rig, &strand))
         return 0;
     for (int n = 0; n < strand.joints; n++) {
         pin_pull c[1] = {{{0}}};

@@ -65,8 +65,7 @@ struct path {
 };
 
 /// Poses a tail or chain at a position in samples. False if its model is missing, or has too many nodes above it.
-bool path_find(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-               struct path *path);
+bool path_find(const struct posing *posing, int rig, double position, struct path *path);
 
 /// Finds the arms of all nodes up to one of the strand's joints, to that joint's end.
 void path_arms(struct path *path, int joint);

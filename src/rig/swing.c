@@ -94,7 +94,7 @@ bool swing_arm(const struct posing *posing, int rig, struct swing_arm *arm)
     const struct posing still = {.document = posing->document, .models = posing->models, .at_rest = true};
     struct strand strand;
     struct path path;
-    if (!path_find(&still, rig, 0, NULL, &path)) return false;
+    if (!path_find(&still, rig, 0, &path)) return false;
     if (!strand_find(&still, rig_body(still.document, rig), rig, &strand)) return false;
     const struct path_node *base = &path.nodes[path.first];
     *arm = (struct swing_arm){.joints = strand.joints, .length = path_length(&path, strand.joints)};

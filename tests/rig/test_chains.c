@@ -46,8 +46,8 @@ static void bend(const struct opened *opened, int rig, enum look look, const wig
     const struct posing posing = {
         .document = opened->document, .models = opened->models, .look = look, .move = move_one, .context = &moved};
     struct rig_pose chain, body;
-    assert_true(rig_pose(&posing, rig, 0, NULL, &chain));
-    assert_true(rig_pose_body(&posing, rig_body(opened->document, rig), 0, NULL, &body));
+    assert_true(rig_pose(&posing, rig, 0, &chain));
+    assert_true(rig_pose_body(&posing, rig_body(opened->document, rig), 0, &body));
     const struct chain *of = &opened->document->rigs[rig]->chain;
     struct chain_bones bones;
     assert_done(chain_find(&body.imported->gltf, of->from, of->to, &bones, &error));
@@ -615,8 +615,8 @@ static double tip_off(const struct stand *stand, int sample)
     const struct posing posing = opened_posing(&stand->opened);
     const int rig = stand->opened.document->rig_count - 1;
     struct rig_pose still, swung;
-    assert_true(rig_pose(&unsolved, rig, sample, NULL, &still));
-    assert_true(rig_pose(&posing, rig, sample, NULL, &swung));
+    assert_true(rig_pose(&unsolved, rig, sample, &still));
+    assert_true(rig_pose(&posing, rig, sample, &swung));
     const int tip = swung.strand.count - 1;
     return (double)(swung.strand.matrix[tip][12] - still.strand.matrix[tip][12]);
 }
@@ -630,7 +630,7 @@ static double largest_turn(struct opened *opened, const char *bone)
     const struct posing posing = opened_posing(opened);
     for (int s = 0; s < opened->evaluation.samples; s++) {
         struct rig_pose posed;
-        assert_true(rig_pose_body(&posing, 0, s, NULL, &posed));
+        assert_true(rig_pose_body(&posing, 0, s, &posed));
         const struct gltf *gltf = &posed.imported->gltf;
         const int node = gltf_find_node(gltf, opened->document->rigs[rig]->chain.to);
         const mat3s swung = glms_mat4_pick3(mat4_from(posed.model.pose->world[node]));
@@ -703,7 +703,7 @@ STAND_TEST(an_offset_delays_what_bends_not_the_clip, stand_open(stand, "assets/s
             for (int j = 0; j < 4; j++) {
                 const double read = !later && j < 2 ? at - offset : at, seen = 4 * (read < 0 ? read + 96 : read);
                 struct rig_pose posed;
-                assert_true(rig_pose_body(&posing, 0, seen, NULL, &posed));
+                assert_true(rig_pose_body(&posing, 0, seen, &posed));
                 const int node = gltf_find_node(&posed.imported->gltf, joints[j]);
                 versors bent, clip;
                 memcpy(bent.raw, posed.model.pose->place[node].rotation, sizeof bent.raw);

@@ -369,7 +369,7 @@ static double check_vertices(const struct posing *posing, int sample, int lowest
 {
     struct rig_pose posed;
     double least = INFINITY, own = NAN;
-    assert_true(rig_pose(posing, 0, sample, NULL, &posed));
+    assert_true(rig_pose(posing, 0, sample, &posed));
     for (int v = 0; v < posed.model.figure->character.vertex_count; v++) {
         float at[3];
         figure_vertex(&posed.model, v, at);

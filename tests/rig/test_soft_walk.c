@@ -49,7 +49,7 @@ TEST(a_vertex_is_the_skin_of_rest_and_shapes)
         for (int frame = 0; frame <= 24; frame += 5) {
             struct rig_pose posed;
             double z[2];
-            assert_true(rig_pose(&posing, 0, frame, NULL, &posed));
+            assert_true(rig_pose(&posing, 0, frame, &posed));
             const struct model_pose *model = &posed.model;
             const int vertices = model->figure->character.vertex_count;
             const struct coordinate *belly = &model->figure->character.coordinates[0];
@@ -107,7 +107,7 @@ TEST(a_point_of_a_walking_character_is_pinned)
         struct rig_pose posed;
         float place[3];
         const struct posing posing = opened_posing(&stand.opened);
-        assert_true(rig_pose(&posing, 0, 15, NULL, &posed));
+        assert_true(rig_pose(&posing, 0, 15, &posed));
         figure_vertex(&posed.model, 9, place);
         for (int k = 0; k < 3; k++) assert_near((double)place[k], pin.to[k], 2e-6);
         assert_knots_are_hit(&stand);
@@ -122,7 +122,7 @@ static double lowest_of(const struct stand *stand)
     float least = INFINITY;
     for (int i = 0; i < stand->opened.evaluation.samples; i++) {
         struct rig_pose posed;
-        assert_true(rig_pose(&posing, 0, i, NULL, &posed));
+        assert_true(rig_pose(&posing, 0, i, &posed));
         figure_lowest(&posed.model, &least);
     }
     return (double)least;

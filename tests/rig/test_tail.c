@@ -313,7 +313,7 @@ static const struct pose *pose_at(double frame)
 {
     static struct rig_pose posed;
     const struct posing posing = {.document = scene.document, .evaluation = &scene.evaluation};
-    assert_true(rig_pose(&posing, 0, frame * scene.document->substeps, NULL, &posed));
+    assert_true(rig_pose(&posing, 0, frame * scene.document->substeps, &posed));
     return &posed.strand;
 }
 
@@ -321,7 +321,7 @@ static struct rig_pose fox_at(double frame)
 {
     struct rig_pose fox;
     const struct posing posing = opened_posing(&scene);
-    assert_true(rig_pose_body(&posing, 0, frame * scene.document->substeps, NULL, &fox));
+    assert_true(rig_pose_body(&posing, 0, frame * scene.document->substeps, &fox));
     return fox;
 }
 
@@ -413,7 +413,7 @@ TEST(an_offset_delays_all_that_splines_do)
         for (double at = 0; at <= 96; at += 0.75) {
             wiggly_value values[RIG_MAX_INPUTS];
             struct rig_pose posed;
-            posing_values(&posing, 0, at, NULL, values);
+            posing_values(&posing, 0, at, values);
             for (int c = 0; c < 4; c++) {
                 const wiggly_value is = wiggly_evaluate(&curves[c - (c > 0)], at - 2 * offsets[i]);
                 const double read = at - 2 * offsets[i], follows = c == 1 ? wiggly_evaluate(&curves[3], read).re : 0;
@@ -421,12 +421,12 @@ TEST(an_offset_delays_all_that_splines_do)
                 assert_near(values[c].re, is.re, 1e-12);
                 assert_near(values[c].im, is.im, 1e-12);
             }
-            assert_true(rig_pose(&posing, 0, at, NULL, &posed));
+            assert_true(rig_pose(&posing, 0, at, &posed));
             const wiggly_value base = wiggly_evaluate(&curves[3], at);
             assert_near(posed.strand.matrix[0][12], base.y + base.re, 1e-6);
         }
         wiggly_value ends[2][RIG_MAX_INPUTS];
-        for (int end = 0; end < 2; end++) posing_values(&posing, 0, 96 * end, NULL, ends[end]);
+        for (int end = 0; end < 2; end++) posing_values(&posing, 0, 96 * end, ends[end]);
         assert_near(ends[0][2].re, ends[1][2].re, 1e-12);
         assert_near(ends[0][2].im, ends[1][2].im, 1e-12);
     }
@@ -530,8 +530,8 @@ TEST(the_body_has_limits)
         struct by_hand hand = {.base = {0}};
         for (int c = 2; c < tail->channel_count; c++) hand.input[c].y = sign * 1e6;
         struct rig_pose posed;
-        const struct posing posing = {.document = scene.document, .evaluation = &scene.evaluation};
-        assert_true(rig_pose(&posing, 0, 30 * scene.document->substeps, &hand, &posed));
+        const struct posing posing = {.document = scene.document, .evaluation = &scene.evaluation, .by_hand = &hand};
+        assert_true(rig_pose(&posing, 0, 30 * scene.document->substeps, &posed));
         const struct limbs is = posed.strand.limbs;
         for (int n = 0; n < before.count; n++)
             assert_memory_equal(before.matrix[n], posed.strand.matrix[n], sizeof before.matrix[n]);

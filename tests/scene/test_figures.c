@@ -33,7 +33,7 @@ static struct rig_pose pose_at(const struct figure_scene *s, int sample)
 {
     struct rig_pose pose;
     const struct posing posing = {.document = s->document, .evaluation = &s->evaluation, .models = s->models};
-    assert_true(rig_pose(&posing, 0, sample, NULL, &pose));
+    assert_true(rig_pose(&posing, 0, sample, &pose));
     return pose;
 }
 

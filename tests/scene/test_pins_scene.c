@@ -166,7 +166,7 @@ static void stage_point(const struct stand *stand, int rig, int point, double fr
 {
     struct rig_pose pose;
     const struct posing posing = opened_posing(&stand->opened);
-    assert_true(rig_pose(&posing, rig, document_sample(document_of(stand), frame), NULL, &pose));
+    assert_true(rig_pose(&posing, rig, document_sample(document_of(stand), frame), &pose));
     if (pose.kind == RIG_MODEL) {
         figure_vertex(&pose.model, point, at);
     } else {
@@ -524,7 +524,7 @@ static double lowest(const struct stand *stand, int sample)
     struct rig_pose pose;
     double low = INFINITY;
     const struct posing posing = opened_posing(&stand->opened);
-    assert_true(rig_pose(&posing, 0, sample, NULL, &pose));
+    assert_true(rig_pose(&posing, 0, sample, &pose));
     for (int v = 0; v < pose.model.figure->character.vertex_count; v++) {
         float at[3];
         figure_vertex(&pose.model, v, at);

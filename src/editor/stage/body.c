@@ -617,7 +617,7 @@ static bool find_stand(const struct stage *stage, int rig, struct stand *stand)
     const struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose pose;
     float lo[3], hi[3];
-    if (!rig_pose(&posing, rig, stage->core->view.playback.position, NULL, &pose)) return false;
+    if (!rig_pose(&posing, rig, stage->core->view.playback.position, &pose)) return false;
     if (pose.kind == RIG_TAIL) {
         const float *base = pose.strand.matrix[0] + 12, scale = pose.strand.scale;
         *stand = (struct stand){{base[0], base[1], base[2]},
@@ -673,7 +673,7 @@ struct hover body_hover(struct stage *stage, double position, float x, float y)
     for (int t = 0; t < stage->tail_count; t++) {
         const int rig = stage->strands[t].rig;
         struct rig_pose pose;
-        if (!tail_of(stage->core->document, rig) || !rig_pose(&posing, rig, position, NULL, &pose)) continue;
+        if (!tail_of(stage->core->document, rig) || !rig_pose(&posing, rig, position, &pose)) continue;
 
         // Where the ray enters and leaves the bounding box.
         const float *base = pose.strand.matrix[0] + 12, scale = pose.strand.scale;
@@ -685,7 +685,7 @@ struct hover body_hover(struct stage *stage, double position, float x, float y)
             enter = fmaxf(enter, fminf(a, b));
             leave = fminf(leave, fmaxf(a, b));
         }
-        if (!(enter < leave) || !rig_pose_body(&posing, rig, position, NULL, &pose)) continue;
+        if (!(enter < leave) || !rig_pose_body(&posing, rig, position, &pose)) continue;
         const float distance = body_distance(stage, &pose, direction);
         if (distance >= nearest) continue;
         nearest = distance;

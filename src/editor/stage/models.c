@@ -75,7 +75,7 @@ void stage_pose_model(struct stage *stage, const struct core *core, int rig)
     struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose posed;
     posing.memory = POSE_SHOWN;
-    if (!rig_pose_body(&posing, rig, core->view.playback.position, NULL, &posed)) return;
+    if (!rig_pose_body(&posing, rig, core->view.playback.position, &posed)) return;
     struct stage_model *shown = models_show(view, &posed);
     if (!shown) return;
     const struct figure *figure = posed.model.figure;
@@ -108,7 +108,7 @@ void stage_pose_model(struct stage *stage, const struct core *core, int rig)
     // The clip without its chains, beside it.
     posing = (struct posing){.document = core->document, .models = core->models, .memory = POSE_BESIDE};
     if (!core->view.on[SWITCH_ORIGINAL] || view->model_count == STAGE_MAX_MODELS) return;
-    if (!rig_pose_body(&posing, rig, core->view.playback.position, NULL, &posed)) return;
+    if (!rig_pose_body(&posing, rig, core->view.playback.position, &posed)) return;
     const float by = models_aside(core, rig);
     shown = &view->models[view->model_count++];
     *shown = shown[-1];

@@ -318,7 +318,7 @@ static bool proxy_show(struct stage *stage, struct core *core, const struct posi
 {
     struct rig_pose pose;
     float points[ANGLES_MAX_JOINTS + 1][2];
-    if (!rig_pose(posing, rig, sample + document_delay(posing->document, rig), NULL, &pose)) return false;
+    if (!rig_pose(posing, rig, sample + document_delay(posing->document, rig), &pose)) return false;
     if (pose.kind == RIG_TAIL) return show_tail(stage, core, &pose.strand, width, color, tip);
     if (pose.kind == RIG_MODEL) return show_character(stage, core, &pose, width, color, tip);
     if (pose.kind != RIG_CHAIN || pose.strand.count == 0) return false;
@@ -446,7 +446,7 @@ static bool point_place(const struct core *core, struct rig_point point, double 
 {
     struct rig_pose pose;
     const struct posing posing = stage_posing(core);
-    if (!point_exists(core, point) || !rig_pose(&posing, point.rig, position, NULL, &pose)) return false;
+    if (!point_exists(core, point) || !rig_pose(&posing, point.rig, position, &pose)) return false;
     if (pose.kind == RIG_MODEL) {
         figure_vertex(&pose.model, point.at, place);
     } else {

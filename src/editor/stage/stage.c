@@ -345,7 +345,7 @@ void stage_fit(struct stage *stage, struct core *core)
         for (int step = 0; steps > 0 && step <= steps; step++) {
             struct rig_pose posed;
             float low[3], high[3];
-            if (!rig_pose(&posing, r, last * step / steps, NULL, &posed)) break;
+            if (!rig_pose(&posing, r, last * step / steps, &posed)) break;
             const float aside = models_aside(core, r);
             rig_bounds(&posed, low, high);
             for (int k = 0; k < 3; k++) {

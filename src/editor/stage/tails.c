@@ -29,8 +29,10 @@ static const float DUSK = 0.35f; ///< for a fox of bind size
 bool strand_pose(const struct stage *stage, int rig, double position, const struct by_hand *change,
                  struct rig_pose *pose)
 {
-    const struct posing posing = stage_posing_by_hand(stage);
-    return tail_drag_holds(stage->core->document, rig, 0) && rig_pose(&posing, rig, position, change, pose);
+    struct posing posing = stage_posing_by_hand(stage);
+    posing.by_hand = change;
+    posing.held = rig;
+    return tail_drag_holds(stage->core->document, rig, 0) && rig_pose(&posing, rig, position, pose);
 }
 
 void stage_pose_tail(struct stage *stage, const struct core *core, int rig)
@@ -40,7 +42,7 @@ void stage_pose_tail(struct stage *stage, const struct core *core, int rig)
     struct rig_pose posed, body;
     if (stage->tail_count == STAGE_MAX_TAILS) return;
     posing.memory = POSE_SHOWN;
-    const bool has_fox = tail_pose(&posing, rig, core->view.playback.position, NULL, &posed, &body);
+    const bool has_fox = tail_pose(&posing, rig, core->view.playback.position, &posed, &body);
     struct shadow_blob *blobs = view->blobs + view->blob_count;
     view->blob_count += pose_blobs(&posed.strand, view->key_from, blobs, BLOBS_OF_ONE_TAIL);
     struct stage_model *fox = has_fox ? models_show(view, &body) : NULL;
