@@ -3,7 +3,6 @@
 #include "base/child.h"
 #include "base/need.h"
 #include "rig/import.h"
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,10 +72,8 @@ bool flesh_start(struct app *app, const struct request *request, struct error *e
     if (good) {
         char *const arguments[] = {"/proc/self/exe", "flesh", model, "-o", job->output, job->part ? "--part" : NULL,
                                    job->part,        NULL};
-        const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
         document_model_path(document, request->number, model);
-        const int cause = child_start(&job->child, arguments, -1, nowhere);
-        close(nowhere);
+        const int cause = child_start(&job->child, arguments, -1, -1);
         good = cause == 0 || fail(error, ERROR_ENVIRONMENT, "flesh cannot be made: %s", strerror(cause));
     }
     if (good)

@@ -1,6 +1,7 @@
 /// Runs other programs, such as ffmpeg.
 #include "base/child.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -21,6 +22,7 @@ int child_start(struct child *child, char *const *arguments, int input, int outp
     sigaddset(&usual, SIGPIPE);
     posix_spawn_file_actions_init(&files);
     if (input >= 0) posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     if (output >= 0) posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, fileno(child->words), STDERR_FILENO);
     posix_spawnattr_init(&attributes);

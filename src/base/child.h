@@ -11,7 +11,7 @@ struct child {
     FILE *words;   ///< what it writes to standard error
 };
 
-/// Starts a program from PATH, shielded from the terminal's Ctrl+C. `input` and `output` become its standard input and output; −1: ours.
+/// Starts a program from PATH, shielded from the terminal's Ctrl+C. `input` and `output` become its standard input and output; −1: ours, and nowhere.
 /// Returns 0 or errno. In a browser there are no programs: ENOSYS.
 int child_start(struct child *child, char *const *arguments, int input, int output);
 

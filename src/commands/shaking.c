@@ -138,7 +138,6 @@ struct shaking shaking_default(void)
                          .budget = 20,
                          .soft = soft_default_options()};
     by.soft.frequency = by.soft.density = 0;
-    by.soft.modes = SHAKING_MODES;
     return by;
 }
 

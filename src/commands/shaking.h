@@ -5,9 +5,6 @@
 #include "commands/commands.h"
 #include "simulation/soft.h"
 
-/// Modes among which the one that is seen most is found.
-enum { SHAKING_MODES = 24 };
-
 /// Start from shaking_default().
 struct shaking {
     const char *name;          ///< the mesh's path, for messages

@@ -211,7 +211,6 @@ static const char *check_job(struct job *job)
     if (kind == DRIVE_TRACK && (isfinite(job->by.amplitude) || job->by.drive.frequency > 0))
         return "--drive: a track has its own size in metres and time: leave out --amplitude and "
                "--drive-frequency";
-
     return shaking_check(&job->by);
 }
 

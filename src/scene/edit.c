@@ -772,14 +772,6 @@ bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, 
            replace_rig(document, rig, rig_clone(wanted), error);
 }
 
-/// Whether a rig may have a pin. Turns −0 into 0.
-static bool check_pin(const struct document *document, const struct rig *rig, struct pin *pin, struct error *error)
-{
-    struct error why;
-    return fields_check(document, JOINTS_UNKNOWN, rig_pin_fields(rig), pin, &why) ||
-           fail(error, ERROR_INPUT, "%s: a pin: %s", rig_title(rig), why.text);
-}
-
 /// The rig that has the pin; NULL and an error if there is none.
 static const struct rig *find_pinned(const struct document *document, int rig, unsigned id, struct error *error)
 {
@@ -803,7 +795,10 @@ bool edit_pin_set(struct document *document, int rig, const struct pin *pin, str
     const struct rig *old =
         is_new ? find_rig(document, rig, EDIT_ANY_KIND, error) : find_pinned(document, rig, pin->id, error);
     struct pin changed = *pin;
-    if (!old || !check_pin(document, old, &changed, error)) return false;
+    struct error why;
+    if (!old) return false;
+    if (!fields_check(document, JOINTS_UNKNOWN, rig_pin_fields(old), &changed, &why)) // turns −0 into 0
+        return fail(error, ERROR_INPUT, "%s: a pin: %s", rig_title(old), why.text);
     if (is_new && pins_count(document) >= SCENE_MAX_PINS)
         return fail(error, ERROR_INPUT, "the limit of %d pins is reached", SCENE_MAX_PINS);
     if (!is_new) {

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { SEEN_AMONG = 24 }; ///< modes among which the one that is seen most is found
+
 // --- regions and softness
 
 /// `count` numbers with commas between; false if there are more or fewer.
@@ -202,8 +204,7 @@ struct soft_options soft_default_options(void)
                                  .frequency = 2,
                                  .poisson = 0.35,
                                  .density = 1000,
-                                 .damping = 0.03,
-                                 .modes = 1};
+                                 .damping = 0.03};
 }
 
 static const double line_reach = 0.6; ///< cells: a line passes no farther from some node of the lattice
@@ -329,7 +330,7 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     }
 
     // Finds the modes for Young's modulus 1 and scales it: frequencies grow with its square root.
-    modes_create(&soft->modes, body, options->modes);
+    modes_create(&soft->modes, body, options->shake ? SEEN_AMONG : 1);
     if (soft->modes.count == 0) return true;
     if (options->shake) {
         // Finds the mode that is seen most: by the power with which it moves the surface, times how long it lasts, 1 / ω.

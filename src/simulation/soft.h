@@ -76,7 +76,6 @@ struct soft_options {
     double poisson;            ///< 0 … 0.49
     double density;            ///< kg/m³
     double damping;            ///< ratio at that mode: half of it by mass, half by stiffness (Rayleigh)
-    int modes;                 ///< how many normal modes to find, at least 1
 };
 struct soft_options soft_default_options(void);
 
