@@ -141,7 +141,7 @@ struct replay *replay_parse(const char *name, const char *text, size_t size, str
         if (!good)
             fail(error, ERROR_INPUT, "%s:%d: expected an event in a frame from %ld to %ld, got \"%.40s\"", name,
                  replay->number, last, limit - 1, split(line).word[0]);
-        last = frame;
+        if (good) last = frame;
     }
     if (replay->header.frames == 0) replay->header.frames = last + 1;
     replay->at = at;

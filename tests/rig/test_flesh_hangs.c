@@ -97,6 +97,12 @@ TEST(knots_of_flesh_are_of_the_flesh)
         opened_solve(&opened, SOLVER_BY_LENGTH);
         const double *const total = opened.evaluation.curves[0].total;
         const double alone = total[12 * each];
+        struct rig floored = *document->rigs[0];
+        floored.model.has_floor = true; // far below, which solves it with the rig
+        floored.model.floor = -9;
+        assert_done(edit_rig_set(document, 0, &floored, &error));
+        opened_solve(&opened, SOLVER_BY_LENGTH);
+        assert_near(total[12 * each], alone, 1e-9);
         for (int k = 0; k < 3; k++) assert_done(edit_knot_insert(document, 0, &knots[k], &error));
         opened_solve(&opened, SOLVER_BY_LENGTH);
         assert_near(total[4 * each], 0.5, 1e-9);

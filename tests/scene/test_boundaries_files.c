@@ -246,6 +246,7 @@ FOLDER_TEST(lines_of_a_replay)
         {REPLAY("640 480", "frames 10000001\n"), "r:4: expected a number of frames up to 10000000, got \"10000001\""},
         {REPLAY("640 480", "frames 0\n9999999 close\n"), NULL}, // one that was cut short
         {REPLAY("640 480", "frames 0\n10000000 close\n"), "r:5: expected an event in a frame from 0 to 9999999"},
+        {REPLAY("640 480", "frames 0\n99999999999999999999 close\n"), "r:5: expected an event in a frame from 0 to"},
         {"hello\n", "r:1: expected \"wiggly-replay 1\", got \"hello\""},
         {"\f\f\n", "expected \"wiggly-replay 1\""},
         {"wiggly-replay 1\n\v\n", "expected a header with size and frames"},
