@@ -339,31 +339,6 @@ bool body_create(struct body *body, const struct body_mesh *mesh, struct materia
         pool_free(&body->pool);
         return false;
     }
-
-    // The matrix has a block for each pair of nodes that share an element: the pairs (row, column), sorted, each once.
-    struct blocks *blocks = &body->stiffness;
-    uint64_t *pairs = need(elements * 16 + 1, sizeof *pairs);
-    size_t all = 0, kept = 0;
-    for (size_t e = 0; e < elements; e++) {
-        const int *node = body->elements[e].node;
-        for (int k = 0; k < 16; k++) pairs[all++] = (uint64_t)node[k / 4] << 32 | (uint32_t)node[k % 4];
-    }
-    qsort(pairs, all, sizeof *pairs, compare_pairs);
-    for (size_t i = 0; i < all; i++) {
-        if (i == 0 || pairs[i] != pairs[i - 1]) pairs[kept++] = pairs[i];
-    }
-    blocks->rows = mesh->node_count;
-    blocks->start = pool_take(&body->pool, nodes + 1, sizeof *blocks->start);
-    blocks->column = pool_take(&body->pool, kept + 1, sizeof *blocks->column);
-    blocks->block = pool_take(&body->pool, kept + 1, sizeof *blocks->block);
-    blocks->diagonal = pool_take(&body->pool, nodes, sizeof *blocks->diagonal);
-    for (size_t i = 0; i < kept; i++) {
-        int row = (int)(pairs[i] >> 32), column = (int)(uint32_t)pairs[i];
-        blocks->start[row + 1] = (int)i + 1;
-        blocks->column[i] = column;
-        if (row == column) blocks->diagonal[row] = (int)i;
-    }
-    free(pairs);
     return true;
 }
 
@@ -376,22 +351,40 @@ void body_ready(struct body *body)
             body->elements[kept++] = body->elements[e];
     }
     body->element_count = kept;
-    for (int e = 0; e < kept; e++) {
-        const int *node = body->elements[e].node;
-        for (int k = 0; k < 16; k++) {
-            int row = node[k / 4], column = node[k % 4];
-            const struct blocks *blocks = &body->stiffness; // the pair's block, which is in the pattern
-            int low = blocks->start[row], high = blocks->start[row + 1] - 1;
-            while (low < high) {
-                const int middle = (low + high) / 2;
-                if (blocks->column[middle] < column)
-                    low = middle + 1;
-                else
-                    high = middle;
-            }
-            body->place[e][k] = body->pinned[row] || body->pinned[column] ? -1 : low;
-        }
+
+    // The matrix has a block for each node, and for each pair of free nodes that share an element: the pairs (row, column), sorted, each once.
+    struct blocks *blocks = &body->stiffness;
+    const size_t nodes = (size_t)body->node_count;
+    uint64_t *pairs = need(nodes + (size_t)kept * 16, sizeof *pairs);
+    size_t all = 0, known = 0;
+    for (uint64_t i = 0; i < nodes; i++) pairs[all++] = i << 32 | i;
+    for (int n = 0; n < 16 * kept; n++) {
+        const int *node = body->elements[n / 16].node, row = node[n / 4 % 4], column = node[n % 4];
+        if (!body->pinned[row] && !body->pinned[column]) pairs[all++] = (uint64_t)row << 32 | (uint32_t)column;
     }
+    qsort(pairs, all, sizeof *pairs, compare_pairs);
+    for (size_t i = 0; i < all; i++) {
+        if (i == 0 || pairs[i] != pairs[i - 1]) pairs[known++] = pairs[i];
+    }
+    blocks->rows = body->node_count;
+    blocks->start = pool_take(&body->pool, nodes + 1, sizeof *blocks->start);
+    blocks->column = pool_take(&body->pool, known + 1, sizeof *blocks->column);
+    blocks->block = pool_take(&body->pool, known + 1, sizeof *blocks->block);
+    blocks->diagonal = pool_take(&body->pool, nodes, sizeof *blocks->diagonal);
+    for (size_t i = 0; i < known; i++) {
+        const int row = (int)(pairs[i] >> 32), column = (int)(uint32_t)pairs[i];
+        blocks->start[row + 1] = (int)i + 1;
+        blocks->column[i] = column;
+        if (row == column) blocks->diagonal[row] = (int)i;
+    }
+    for (int n = 0; n < 16 * kept; n++) { // where each element's pairs are
+        const int *node = body->elements[n / 16].node, row = node[n / 4 % 4], column = node[n % 4];
+        const uint64_t pair = (uint64_t)row << 32 | (uint32_t)column, *found = NULL;
+        if (!body->pinned[row] && !body->pinned[column])
+            found = bsearch(&pair, pairs, known, sizeof *pairs, compare_pairs);
+        body->place[n / 16][n % 16] = found ? (int)(found - pairs) : -1;
+    }
+    free(pairs);
 }
 
 double body_forces(struct body *body, const double (*x)[3], double (*force)[3])
