@@ -65,7 +65,9 @@ void child_last_words(const struct child *child, char *words, size_t size)
 
 void child_end(struct child *child)
 {
-    if (child->process > 0) {
+    enum { GRACE = 100 }; // milliseconds
+    if (child->process > 0) kill(child->process, SIGTERM);
+    if (child->process > 0 && child_state(child, GRACE) == CHILD_RUNS) {
         kill(child->process, SIGKILL);
         while (waitpid(child->process, NULL, 0) < 0 && errno == EINTR) continue;
     }

@@ -23,7 +23,7 @@ enum child_state child_state(struct child *child, int patience);
 /// The last line that it wrote to standard error, or "it was ended".
 void child_last_words(const struct child *child, char *words, size_t size);
 
-/// Ends it if it runs, and forgets it.
+/// Ends it if it runs, and forgets it. It may first remove what it has half-written.
 void child_end(struct child *child);
 
 #endif

@@ -1,4 +1,5 @@
 /// Flesh that the app makes: the character swings on its bones, all else of the scene stays, and it is one step to undo.
+#include "base/child.h"
 #include "beast.h"
 #include "blind.h"
 #include "commands/commands.h"
@@ -125,6 +126,25 @@ BEAST_TEST(asked_again_it_stops_and_leaves_nothing)
     blind_frames(b, 2);
     assert_string_equal(beast(b)->model, "beast.glb");
     assert_false(is_there("beast-flesh.glb"));
+}
+
+/// Where it is stopped while it writes, it removes that first; one that does not listen ends, too.
+TEST(a_child_that_is_ended_may_tidy_up)
+{
+    static const char *const shells[] = {"trap 'rm half; exit 1' TERM; touch half; while :; do sleep 0.01; done",
+                                         "trap '' TERM; touch half; while :; do sleep 0.01; done"};
+    folder_run("rm -rf %s && mkdir %s");
+    for (int row = 0; row < 2; row++) {
+        char line[256];
+        struct child child;
+        snprintf(line, sizeof line, "cd %s; %s", folder, shells[row]);
+        char *const words[] = {"sh", "-c", line, NULL};
+        assert_int_equal(child_start(&child, words, -1, -1), 0);
+        for (int i = 0; i < 1000 && !is_there("half"); i++) assert_int_equal(child_state(&child, 10), CHILD_RUNS);
+        child_end(&child);
+        assert_int_equal(is_there("half"), row);
+        assert_int_equal(child.process, 0);
+    }
 }
 
 BEAST_TEST(what_went_wrong_is_said)
