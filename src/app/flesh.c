@@ -90,13 +90,13 @@ static void take_flesh(struct app *app, const struct flesh_job *job)
     struct document *document = app->work.document;
     struct error error;
     int rig = 0;
+    editor_let_go(app->work.editor); // a drag may run
     while (rig < document->rig_count && document->rigs[rig]->id != job->rig) rig++;
     if (rig == document->rig_count || strcmp(document->rigs[rig]->model.model, job->model) != 0) {
         editor_message(app->work.editor, true, "Wrote %s, but its character is no longer here.", job->output);
         return;
     }
     const int before = document->rigs[rig]->model.drive_count;
-    editor_let_go(app->work.editor); // a drag may run
     history_begin(app->work.history, "Make flesh", 0);
     const bool done = import_flesh(document, rig, job->output, job->painted, &error);
     if (!done) history_restart(app->work.history);

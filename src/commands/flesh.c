@@ -118,18 +118,17 @@ static int find_share(struct flesh *f, int node)
     f->row_of = pool_take(&f->pool, count + 1, sizeof *f->row_of);
     f->share = pool_take(&f->pool, count + 1, sizeof *f->share);
     int unshared = 0; // paint has the vertices of a part that shares them once
-    for (int p = 0; p < mesh->part_count; p++) unshared += mesh->parts[p].shared ? 0 : mesh->parts[p].vertex_count;
+    for (int p = 0; p < mesh->part_count; p++) unshared += gltf_own_vertices(&mesh->parts[p]);
     if (f->paint && f->paint->vertices != unshared) return -1;
     for (int p = 0, row = 0, next = 0; p < mesh->part_count; p++) {
         const struct gltf_part *part = &mesh->parts[p];
         const int first = part->shared ? 0 : next;
-        next += part->shared ? 0 : part->vertex_count;
+        next += gltf_own_vertices(part);
         for (int i = 0; i < part->vertex_count; i++, row++) {
             f->part_of[row] = part;
             f->row_of[row] = i;
-            f->share[row] = 0;
-            for (int c = 0; f->paint && c < f->paint->coordinates;
-                 c++) { // as far as a coordinate has its amplitude raised
+            f->share[row] = 0; // as far as a coordinate has its amplitude raised
+            for (int c = 0; f->paint && c < f->paint->coordinates; c++) {
                 const size_t at = (size_t)c * (size_t)f->paint->vertices + (size_t)(first + i);
                 f->share[row] = fmax(f->share[row], (double)f->paint->values[at][0] / whole);
             }

@@ -131,6 +131,16 @@ const double *evaluation_motion(const struct evaluation *evaluation, int spline)
     return baked->key != 0 ? baked->samples : NULL;
 }
 
+// The solver takes the motion of a base as the equilibrium y, and what hangs there moves by x alone. So knots go in with y added, and
+// y is taken out of what comes back: values, curves and tracks are of x.
+
+/// Whether a spline hangs on a base.
+static bool hangs(const struct spline *spline)
+{
+    const struct joint_motion *motion = spline->parameter[PARAMETER_EQUILIBRIUM].motion;
+    return motion && motion->of == MOTION_BASE;
+}
+
 double evaluation_offset(const struct evaluation *evaluation, const struct document *document, int spline,
                          double position)
 {
@@ -143,9 +153,7 @@ double evaluation_offset(const struct evaluation *evaluation, const struct docum
     // y less what it follows, read between samples as y is: from up to four of them.
     enum { AROUND = 4 };
     const wiggly_curve *curve = &evaluation->curves[spline];
-    const struct param *follows = &of->parameter[PARAMETER_EQUILIBRIUM];
-    const bool hangs = follows->motion && follows->motion->of == MOTION_BASE; // y has been taken out
-    const double *own = hangs ? NULL : track_of(evaluation, document, spline, PARAMETER_EQUILIBRIUM);
+    const double *own = hangs(of) ? NULL : track_of(evaluation, document, spline, PARAMETER_EQUILIBRIUM);
     const int last = curve->samples - 1;
     const bool is_loop = curve->start == WIGGLY_LOOP;
     const double at = is_loop ? position - last * floor(position / last) : fmin(fmax(position, 0), last);
@@ -160,16 +168,10 @@ double evaluation_offset(const struct evaluation *evaluation, const struct docum
     return wiggly_evaluate(&around, at - from).y;
 }
 
-// --- a spline that hangs on a base
-//
-// The solver takes the base's motion as the equilibrium y, and what hangs there moves by x alone. So knots go in with y added, and
-// y is taken out of what comes back: values, curves and tracks are of x.
-
 /// The motion of the base that a spline hangs on, as described for the solver; NULL: it does not hang.
 static const double *base_of(const struct spline *spline, const wiggly_desc *desc)
 {
-    const struct joint_motion *motion = spline->parameter[PARAMETER_EQUILIBRIUM].motion;
-    return motion && motion->of == MOTION_BASE ? desc->equilibrium.track : NULL;
+    return hangs(spline) ? desc->equilibrium.track : NULL;
 }
 
 /// How fast it moves at a sample, as the solver sees it.
