@@ -1,4 +1,4 @@
-/// Makes flesh: this program's own command runs beside the app, so that you can go on editing, and a mesh that is too large ends only that.
+/// Makes flesh: this program's own command runs beside the app, so that you can go on editing, and if memory runs out only the command ends.
 #include "app/state.h"
 #include "base/child.h"
 #include "base/need.h"
@@ -77,7 +77,7 @@ bool flesh_start(struct app *app, const struct request *request, struct error *e
         good = cause == 0 || fail(error, ERROR_ENVIRONMENT, "flesh cannot be made: %s", strerror(cause));
     }
     if (good)
-        editor_message(app->work.editor, false, "Making flesh of %s. The same command stops it.",
+        editor_message(app->work.editor, false, "Making flesh of %s. Run the command again to stop.",
                        request->text ? request->text : rig_title(rig));
     else
         flesh_stop(app);

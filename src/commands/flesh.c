@@ -163,7 +163,7 @@ static bool choose_mesh(struct flesh *f, const struct job *job, struct error *er
         return fail(error, ERROR_INPUT, "%s: expected a mesh with a skin, got none: wiggly simulate takes it",
                     gltf->path);
     if (suits == 0)
-        return fail(error, ERROR_INPUT, "%s: expected paint of a mesh with a skin of %s, got some for %d vertices",
+        return fail(error, ERROR_INPUT, "%s: expected paint for a skinned mesh of %s, got paint for %d vertices",
                     job->part.text[0], gltf->path, f->paint->vertices);
     if (best < 0 && f->paint)
         return fail(error, ERROR_INPUT, "%s: expected vertices with a raised amplitude, got none", job->part.text[0]);
@@ -634,7 +634,8 @@ int command_flesh(int argc, char **argv)
          OPTION_OUTPUT, &job.output, 0, 0},
         {"--scene FILE", "also write a scene in which the flesh follows its bones through the first clip",
          OPTION_OUTPUT, &job.scene, 0, 0},
-        {"--part BONE", "only what follows this bone and those below; can be repeated; or PAINT.npy (the whole mesh)",
+        {"--part BONE",
+         "only what follows this bone or those below it (can be repeated), or PAINT.npy (the whole mesh)",
          OPTION_LIST, &job.part, 0, 0},
         {"--depth H", "hold what lies within H metres of the bones (half the median distance)", OPTION_REAL,
          &job.depth, 0, 1e6},

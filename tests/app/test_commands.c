@@ -500,7 +500,7 @@ static const struct {
     {1, "flesh dog.glb --part tial_1 -o x.glb",
      "dog.glb: expected a bone for --part, got \"tial_1\" (did you mean \"tail_1\"?)"},
     {1, "flesh dog.glb --part paint.npy -o x.glb",
-     "paint.npy: expected paint of a mesh with a skin of |dog.glb, got some for 4 vertices"},
+     "paint.npy: expected paint for a skinned mesh of |dog.glb, got paint for 4 vertices"},
     {1, "flesh assets/models/creature.glb -o x.glb", "creature.glb: expected a mesh with a skin, got none"},
     {1, "flesh none.glb -o x.glb", "none.glb"},
     {1, "flesh dog.glb --depth 9 -o x.glb", "nothing can move: all of it is within 9 m of a bone"},
